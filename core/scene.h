@@ -1,0 +1,127 @@
+// A scene file: who stands where in what, seen from where. Strict YAML (interfaces.md, "A scene").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/math.h"
+#include "core/sub_mesh_lists.h"
+
+namespace ensemble {
+
+/// Where a value stood in its file, for messages that can only be made later (unknown outfit).
+struct SourceMark {
+  int line = 0, column = 0;  ///< from 1; 0 where the value is a default or came from --set
+  std::string toString() const;  ///< "line:column", or the key path where line is 0
+  std::string key_path;      ///< "crowd.outfits.casual01"
+};
+
+template <class T>
+struct Marked {
+  T value{};
+  SourceMark mark;
+};
+
+enum class BackgroundKind : std::uint8_t { kSky, kTransparent, kColor };
+
+struct SceneOutput {
+  std::uint32_t width = 1280, height = 720;  ///< 1 .. 16384
+  std::uint32_t samples = 4;                 ///< 1 or 4
+  std::uint32_t frames = 1;
+  float fps = 30.0f;
+  BackgroundKind background = BackgroundKind::kSky;
+  Vec3 background_color{0.0f};               ///< sRGB, 0 .. 1
+};
+
+enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation };
+
+/// Where the crowd stands. Distances in metres; `heading` as for a person, in degrees in the file.
+struct ScenePlacement {
+  PlacementKind kind = PlacementKind::kGrid;
+  float spacing = 1.2f;             ///< grid, formation: between neighbours; disc: least distance
+  Vec3 center{0.0f};
+  std::optional<float> heading;     ///< radians; left out: grid and disc at random, formation 0
+  float heading_spread = 0.0f;      ///< radians: uniform within +- this about heading
+  float jitter = 0.0f;              ///< grid, formation: share of the spacing, 0 .. 0.45
+  std::uint32_t columns = 0;        ///< formation, grid: people in a rank; 0: as square as possible
+};
+
+struct WeightedName {
+  std::string name;
+  float weight = 1.0f;
+  SourceMark mark;
+};
+
+struct SceneCrowd {
+  std::uint32_t count = 0;
+  std::uint64_t seed = 1;
+  std::vector<WeightedName> wardrobes;  ///< by key; empty: all alike
+  ScenePlacement placement;
+  std::vector<WeightedName> outfits;    ///< bare or KEY/NAME; empty: all of each wardrobe alike
+  std::vector<WeightedName> clips;      ///< empty: the first clip of each wardrobe
+  std::array<float, 2> scale{1.0f, 1.0f};  ///< uniform between the two
+};
+
+struct ScenePerson {
+  Marked<std::string> wardrobe;  ///< key; empty where there is one
+  Marked<std::string> outfit;    ///< empty: the bare body
+  Marked<std::string> clip;      ///< empty: the first clip
+  float phase = 0.0f;            ///< part of the clip that has run at time 0
+  float speed = 1.0f;            ///< factor on the clip's speed
+  Vec3 position{0.0f};
+  float heading = 0.0f;          ///< radians about +Y: 0 looks along +Z, 90 degrees along +X
+  float scale = 1.0f;
+  std::optional<std::uint32_t> tint;  ///< tint seed; left out: from the crowd's seed and its number
+  SourceMark mark;
+};
+
+struct SceneCamera {
+  Vec3 position{0.0f, 1.7f, 12.0f};
+  Vec3 target{0.0f, 1.0f, 0.0f};
+  float fov_y = radians(45.0f);
+  float near_plane = 0.1f;  ///< metres; there is no far plane
+};
+
+struct SceneLight {
+  Vec3 direction{-0.4f, -1.0f, -0.3f};  ///< the way the light travels; any length but 0
+  bool shadows = true;
+};
+
+struct SceneWardrobe {
+  std::string key;               ///< empty where the scene names only one
+  std::filesystem::path folder;  ///< resolved against the scene's folder
+  SourceMark mark;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::vector<SceneWardrobe> wardrobes;  ///< at least one
+  Technique technique = Technique::kTagged;
+  SceneOutput output;
+  SceneCrowd crowd;
+  std::vector<ScenePerson> people;
+  SceneCamera camera;
+  SceneLight light;
+  bool ground = true;            ///< a ground plane at y = 0
+};
+
+/// `--set key.path=value`: the value is YAML; list entries by number (`people.0.phase=0.5`).
+using SceneOverride = std::pair<std::string, std::string>;
+
+/// Reads a scene and applies overrides. Numbers are strict (`010` and `1e999` are errors); unknown
+/// keys name the nearest known one; duplicate keys, aliases and anchors are errors.
+/// @throws InputError FILE: LINE:COLUMN: ...; UsageError for an override that names no key.
+Scene loadScene(const std::filesystem::path& file, std::span<const SceneOverride> overrides = {});
+
+/// The same from text; relative wardrobe paths are resolved against `file`'s folder.
+Scene parseScene(const std::string& text, const std::filesystem::path& file,
+                 std::span<const SceneOverride> overrides = {});
+
+}  // namespace ensemble
