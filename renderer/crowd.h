@@ -1,0 +1,47 @@
+// From a scene to people: who stands where, in what, moving how.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "core/scene.h"
+#include "core/wardrobe.h"
+
+namespace ensemble {
+
+/// A combination of one wardrobe that somebody of the crowd wears.
+struct WornCombination {
+  std::uint32_t wardrobe = 0;  ///< index into Scene::wardrobes
+  Combination items;
+  bool operator==(const WornCombination&) const = default;
+};
+
+/// One person at time 0.
+struct Character {
+  std::uint32_t wardrobe = 0;     ///< index into Scene::wardrobes
+  std::uint32_t combination = 0;  ///< index into Crowd::combinations
+  std::uint32_t clip = 0;         ///< index into that wardrobe's TemplateBody::clips
+  float phase = 0.0f;             ///< part of the clip that has run at time 0, 0 .. 1
+  float speed = 1.0f;             ///< factor on the clip's speed
+  Vec3 position{0.0f};
+  float heading = 0.0f;           ///< radians about +Y, 0 looks along +Z
+  float scale = 1.0f;
+  std::uint32_t tint_seed = 0;
+
+  Mat4 worldFromModel() const;
+};
+
+struct Crowd {
+  std::vector<Character> characters;           ///< `people` in file order, then the crowd
+  std::vector<WornCombination> combinations;   ///< distinct, by wardrobe, then by items
+};
+
+/// Fills a scene's placements. The same scene and wardrobes give the same crowd, on every machine.
+/// @param wardrobes one for each of scene.wardrobes
+/// @throws InputError with line:column for an outfit, clip or wardrobe that does not exist, naming
+/// the nearest; for a bare outfit name that several wardrobes have; for a clip that one lacks.
+Crowd populateCrowd(const Scene& scene, std::span<const Wardrobe> wardrobes);
+
+}  // namespace ensemble
