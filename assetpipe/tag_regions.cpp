@@ -1,1 +1,325 @@
-// placeholder
+// Lister section 3.1.3-3.1.4 ("tagged", content preparation), with faces matched instead of counted
+// (design 3).
+#include "assetpipe/tag_regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "assetpipe/match_faces.h"
+#include "assetpipe/segment.h"
+#include "core/check.h"
+#include "core/input_error.h"
+
+namespace ensemble {
+namespace {
+
+constexpr float kJointTolerance = 0.001f;  // metres
+
+/// A primitive of the outfit that is body.
+struct BodyPrimitive {
+  const RawPrimitive* primitive = nullptr;
+  std::uint32_t material = EmbeddedFace::kAnyMaterial;  ///< index into TemplateBody::materials
+};
+
+/// Which material of the template a name means: the same name, else the same without `.001`.
+std::uint32_t templateMaterial(const TemplateBody& body, const std::string& name) {
+  for (const auto strip : {false, true}) {
+    for (const BodyPart& part : body.parts) {
+      const std::string& known = body.materials[part.material].name;
+      const bool same = strip ? withoutBlenderSuffix(known) == withoutBlenderSuffix(name) : known == name;
+      if (same && !known.empty()) return part.material;
+    }
+  }
+  return EmbeddedFace::kAnyMaterial;
+}
+
+std::string listNames(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i == 0 ? "'" : ", '") + names[i] + "'";
+  if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
+  return text;
+}
+
+class OutfitTagger {
+ public:
+  OutfitTagger(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options, const std::string& file,
+               std::vector<std::string>& warnings)
+      : outfit_(outfit), body_(body), options_(options), file_(file), warnings_(warnings) {}
+
+  Item tag(const std::string& name) {
+    item_.name = name;
+    item_.materials = outfit_.materials;
+    item_.images = outfit_.images;
+    readSlot();
+    mapJoints();
+    splitBodyFromGarments();
+    matchBody();
+    item_.tags = tagRegions(body_, item_.visible, item_.extra_body);
+    warnIfComplete();
+    return std::move(item_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& where, const std::string& what, const std::string& mend) const {
+    throw InputError({file_, where, what, mend});
+  }
+
+  /// Slot and layer come from the scene's custom properties, where an artist can set them.
+  void readSlot() {
+    using nlohmann::json;
+    const json extras = json::parse(outfit_.scene_extras_json, nullptr, false);
+    const json ensemble = extras.is_object() ? extras.value("ensemble", json()) : json();
+    if (!ensemble.is_object()) return;
+    const json slot = ensemble.value("slot", json()), layer = ensemble.value("layer", json());
+    if (!slot.is_null()) {
+      if (!slot.is_string() || slot == "") fail("/scenes", "the custom property 'slot' is no text", "set a name");
+      item_.slot = slot;
+    }
+    if (!layer.is_null()) {
+      if (!layer.is_number_integer() || layer < -1000 || layer > 1000) {
+        fail("/scenes", "the custom property 'layer' is no whole number from -1000 to 1000", "set a number");
+      }
+      item_.layer = layer;
+    }
+  }
+
+  /// Finds each joint that carries weight in the template's skeleton, by name and bind position.
+  void mapJoints() {
+    const RawSkeleton& ours = body_.skeleton;
+    const RawSkeleton& theirs = outfit_.skeleton;
+    std::map<std::string, std::uint32_t> joint_by_name;
+    for (std::uint32_t j = 0; j < ours.joints.size(); ++j) joint_by_name.try_emplace(ours.bones[ours.joints[j].bone].name, j);
+
+    const std::vector<bool> used = usedJoints();
+    joint_map_.assign(theirs.joints.size(), 0);
+    std::vector<std::string> missing;
+    const float tolerance = std::max(kJointTolerance, 5.0f * options_.tolerance);
+    for (std::uint32_t j = 0; j < theirs.joints.size(); ++j) {
+      if (!used[j]) continue;
+      const std::string& name = theirs.bones[theirs.joints[j].bone].name;
+      const auto found = joint_by_name.find(name);
+      if (found == joint_by_name.end()) {
+        missing.push_back(name);
+        continue;
+      }
+      joint_map_[j] = static_cast<std::uint16_t>(found->second);
+      const Vec3 here = bindPosition(theirs.joints[j]), there = bindPosition(ours.joints[found->second]);
+      const float distance = glm::distance(here, there);
+      if (!(distance <= tolerance)) {
+        fail("/skins",
+             fmt::format("joint '{}' stands {:.1f} mm from the template's in the bind pose", name, distance * 1000.0f),
+             "bind the outfit to the template's own skeleton, in the template's pose");
+      }
+    }
+    if (!missing.empty()) {
+      fail("/skins", "the outfit is bound to joints that the template's skeleton lacks: " + listNames(missing),
+           "bind it to the template's skeleton, or move these weights to the template's joints");
+    }
+  }
+
+  std::vector<bool> usedJoints() const {
+    std::vector<bool> used(outfit_.skeleton.joints.size(), false);
+    for (const RawMeshNode& node : outfit_.meshes) {
+      if (!node.skinned) continue;
+      for (const RawPrimitive& primitive : node.primitives) {
+        for (const RawVertex& vertex : primitive.vertices) {
+          for (std::size_t i = 0; i < 4; ++i) {
+            if (vertex.skin.weights[i] > 0.0f) used[vertex.skin.joints[i]] = true;
+          }
+        }
+      }
+    }
+    return used;
+  }
+
+  static Vec3 bindPosition(const RawJoint& joint) { return Vec3(glm::inverse(joint.joint_from_model)[3]); }
+
+  void splitBodyFromGarments() {
+    bool found_node = options_.body_node.empty();
+    for (const RawMeshNode& node : outfit_.meshes) {
+      const bool is_body_node = !options_.body_node.empty() && node.name == options_.body_node;
+      found_node = found_node || is_body_node;
+      Garment garment{node.name, {}};
+      for (const RawPrimitive& primitive : node.primitives) {
+        const std::uint32_t material = templateMaterial(body_, outfit_.materials[primitive.material].name);
+        const bool is_body = options_.body_node.empty() ? material != EmbeddedFace::kAnyMaterial : is_body_node;
+        if (is_body) {
+          body_primitives_.push_back({&primitive, material});
+        } else {
+          garment.parts.push_back(withTemplateJoints(primitive));
+        }
+      }
+      if (garment.parts.empty()) continue;
+      if (!node.skinned) {
+        fail(node.json_pointer, "garment '" + node.name + "' is not skinned",
+             "bind it to the skeleton, parent it to a joint, or leave it out of the export");
+      }
+      addGarment(std::move(garment));
+    }
+    if (!found_node) {
+      fail("/nodes", "no mesh node is named '" + options_.body_node + "'",
+           "name one with --body (`ensemble inspect` lists them)");
+    }
+    if (body_primitives_.empty()) failWithoutBody();
+  }
+
+  [[noreturn]] void failWithoutBody() const {
+    std::vector<std::string> regions;
+    for (const BodyPart& part : body_.parts) regions.push_back(body_.materials[part.material].name);
+    fail("/materials", "there is no body in this outfit: no material is named as one of the template's (" + listNames(regions) + ")",
+         "export the outfit with the body that it dresses, its materials named as the template's, or use --body NODE");
+  }
+
+  /// One garment per node; a second node of the same name gets a number.
+  void addGarment(Garment garment) {
+    const std::string name = garment.name;
+    const auto taken = [&](const std::string& candidate) {
+      return std::any_of(item_.garments.begin(), item_.garments.end(),
+                         [&](const Garment& other) { return other.name == candidate; });
+    };
+    for (int copy = 2; taken(garment.name); ++copy) garment.name = name + "_" + std::to_string(copy);
+    item_.garments.push_back(std::move(garment));
+  }
+
+  RawPrimitive withTemplateJoints(RawPrimitive primitive) const {
+    for (RawVertex& vertex : primitive.vertices) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        std::uint16_t& joint = vertex.skin.joints[i];
+        joint = vertex.skin.weights[i] > 0.0f ? joint_map_[joint] : std::uint16_t{0};
+      }
+    }
+    primitive.template_vertices.clear();
+    return primitive;
+  }
+
+  void matchBody() {
+    std::vector<EmbeddedFace> embedded;
+    for (const BodyPrimitive& part : body_primitives_) {
+      for (const Triangle& face : part.primitive->faces) {
+        EmbeddedFace& added = embedded.emplace_back();
+        added.material = part.material;
+        for (std::size_t k = 0; k < 3; ++k) added.corners[k] = part.primitive->vertices[face[k]].position;
+      }
+    }
+    const FaceMatches matches = matchFaces(body_, embedded, options_.tolerance);
+    refuseAnotherBody(matches, embedded.size());
+    item_.visible.assign(body_.faces.size(), 0);
+    for (const FaceId face : matches.template_face) {
+      if (face.valid()) item_.visible[face] = 1;
+    }
+    if (matches.unmatched > 0) keepUnmatchedFaces(matches, embedded.size());
+  }
+
+  void refuseAnotherBody(const FaceMatches& matches, std::size_t face_count) const {
+    if (matches.unmatched <= kMaxUnmatchedShare * static_cast<double>(face_count)) return;
+    fail("/meshes",
+         fmt::format("{} of the {} body faces match no face of the template; corners are {:.2f} mm (median) to {:.2f} mm "
+                     "(maximum) from it",
+                     matches.unmatched, face_count, matches.median_distance * 1000.0f, matches.max_distance * 1000.0f),
+         matches.median_distance > options_.tolerance
+             ? "tag it with the template that it was made for"
+             : "leave the faces of the template's body as they are, or raise --tolerance");
+  }
+
+  /// Design 3: a few faces that a garment reshaped stay as geometry of the outfit.
+  void keepUnmatchedFaces(const FaceMatches& matches, std::size_t face_count) {
+    warnings_.push_back(fmt::format(
+        "{} of the {} body faces match no face of the template (corners up to {:.2f} mm off); they stay as geometry of "
+        "the outfit and their regions count as partial",
+        matches.unmatched, face_count, matches.max_distance * 1000.0f));
+    std::size_t number = 0;
+    for (const BodyPrimitive& part : body_primitives_) {
+      std::map<RegionId, RawPrimitive> extra;
+      std::map<std::pair<RegionId, std::uint32_t>, std::uint32_t> kept_vertices;  // (region, vertex) -> new number
+      const RawPrimitive source = withTemplateJoints(*part.primitive);
+      for (const Triangle& face : source.faces) {
+        if (matches.template_face[number++].valid()) continue;
+        const RegionId region = nearestRegion(source, face);
+        RawPrimitive& target = extra[region];
+        target.material = source.material;
+        Triangle corners{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto next = static_cast<std::uint32_t>(target.vertices.size());
+          const auto [entry, is_new] = kept_vertices.try_emplace({region, face[k]}, next);
+          if (is_new) target.vertices.push_back(source.vertices[face[k]]);
+          corners[k] = entry->second;
+        }
+        target.faces.push_back(corners);
+      }
+      for (auto& [region, primitive] : extra) item_.extra_body.push_back({region, std::move(primitive)});
+    }
+  }
+
+  /// The region of the template face whose centre is nearest; few faces ask, so look at all.
+  RegionId nearestRegion(const RawPrimitive& primitive, const Triangle& face) const {
+    const auto centre = [](const auto& vertices, const Triangle& corners) {
+      Vec3 sum(0.0f);
+      for (const std::uint32_t corner : corners) sum += vertices[corner].position;
+      return sum / 3.0f;
+    };
+    const Vec3 here = centre(primitive.vertices, face);
+    RegionId nearest(0);
+    float least = std::numeric_limits<float>::max();
+    for (std::size_t f = 0; f < body_.faces.size(); ++f) {
+      const float distance = glm::distance(here, centre(body_.vertices.raw(), body_.faces[FaceId(f)]));
+      if (distance < least) {
+        least = distance;
+        nearest = body_.region_of_face[FaceId(f)];
+      }
+    }
+    return nearest;
+  }
+
+  void warnIfComplete() const {
+    const bool complete = std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
+    if (!complete) return;
+    warnings_.push_back(
+        "its body is complete, so nothing is hidden under the clothes; remove the faces that they hide before "
+        "exporting (finding them with --auto-occlusion is not in this version)");
+  }
+
+  const RawAsset& outfit_;
+  const TemplateBody& body_;
+  const TagOptions& options_;
+  const std::string& file_;
+  std::vector<std::string>& warnings_;
+  std::vector<std::uint16_t> joint_map_;        ///< per joint of the outfit: the template's
+  std::vector<BodyPrimitive> body_primitives_;
+  Item item_;
+};
+
+}  // namespace
+
+Item tagOutfit(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options, const std::string& name,
+               const std::string& file, std::vector<std::string>& warnings) {
+  ENSEMBLE_CHECK(options.tolerance > 0.0f);
+  return OutfitTagger(outfit, body, options, file, warnings).tag(name);
+}
+
+PerRegion<RegionTag> tagRegions(const TemplateBody& body, const PerFace<std::uint8_t>& visible,
+                                const std::vector<ExtraBodyPart>& extra_body) {
+  PerRegion<RegionTag> tags(body.regions.size(), RegionTag{Visibility::kHidden, 0});
+  for (std::size_t f = 0; f < body.faces.size(); ++f) {
+    tags[body.region_of_face[FaceId(f)]].visible_faces += visible[FaceId(f)];
+  }
+  for (std::size_t r = 0; r < tags.size(); ++r) {
+    RegionTag& tag = tags[RegionId(r)];
+    if (tag.visible_faces == body.regions[RegionId(r)].face_count) {
+      tag.visibility = Visibility::kFull;
+    } else if (tag.visible_faces > 0) {
+      tag.visibility = Visibility::kPartial;
+    }
+  }
+  for (const ExtraBodyPart& extra : extra_body) {
+    tags[extra.region].visibility = Visibility::kPartial;
+    tags[extra.region].visible_faces += static_cast<std::uint32_t>(extra.part.faces.size());
+  }
+  return tags;
+}
+
+}  // namespace ensemble

@@ -17,12 +17,15 @@ struct CommonOptions {
 };
 
 /// Adds --json, -q, -v and a help footer with one example, and calls `run` when the subcommand is
-/// chosen, with log level and progress bar set.
+/// chosen, with log level and progress bar set. `options` must outlive the command.
 void finishCommand(CLI::App& command, CommonOptions& options, const std::string& example,
                    std::function<void()> run);
 
 /// Writes the figures where --json says; nothing where it was not given.
-void writeFigures(const CommonOptions& options, const nlohmann::json& figures);
+void writeFigures(const CommonOptions& options, const nlohmann::ordered_json& figures);
+
+/// Prints a result for people on standard output; nothing with --quiet or where JSON goes there.
+void printResult(const CommonOptions& options, const std::string& text);
 
 void addTagCommand(CLI::App& app);
 void addAddCommand(CLI::App& app);

@@ -1,9 +1,11 @@
 // ENSEMBLE_CHECK: a caller's bug, on in release builds too. Bad input is not a bug: input_error.h.
 #pragma once
 
+#include <concepts>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace ensemble {
 
@@ -17,6 +19,11 @@ namespace detail {
 
 template <class T>
 concept Streamable = requires(std::ostream& out, const T& value) { out << value; };
+
+/// Integers that std::cmp_less and its kin take: compared by value whatever their signs.
+template <class L, class R>
+concept ComparableIntegers = std::integral<L> && std::integral<R> && !std::same_as<L, bool> &&
+                             !std::same_as<R, bool> && !std::same_as<L, char> && !std::same_as<R, char>;
 
 template <class T>
 void describe(std::ostream& out, const T& value) {
@@ -46,12 +53,60 @@ struct CheckedLeft {
     describe(out, right);
     values = out.str();
   }
-  template <class R> CheckedLeft& operator==(const R& r) { compare(left == r, r); return *this; }
-  template <class R> CheckedLeft& operator!=(const R& r) { compare(left != r, r); return *this; }
-  template <class R> CheckedLeft& operator<(const R& r) { compare(left < r, r); return *this; }
-  template <class R> CheckedLeft& operator<=(const R& r) { compare(left <= r, r); return *this; }
-  template <class R> CheckedLeft& operator>(const R& r) { compare(left > r, r); return *this; }
-  template <class R> CheckedLeft& operator>=(const R& r) { compare(left >= r, r); return *this; }
+  template <class R>
+  CheckedLeft& operator==(const R& right) {
+    if constexpr (ComparableIntegers<L, R>) {
+      compare(std::cmp_equal(left, right), right);
+    } else {
+      compare(left == right, right);
+    }
+    return *this;
+  }
+  template <class R>
+  CheckedLeft& operator!=(const R& right) {
+    if constexpr (ComparableIntegers<L, R>) {
+      compare(std::cmp_not_equal(left, right), right);
+    } else {
+      compare(left != right, right);
+    }
+    return *this;
+  }
+  template <class R>
+  CheckedLeft& operator<(const R& right) {
+    if constexpr (ComparableIntegers<L, R>) {
+      compare(std::cmp_less(left, right), right);
+    } else {
+      compare(left < right, right);
+    }
+    return *this;
+  }
+  template <class R>
+  CheckedLeft& operator<=(const R& right) {
+    if constexpr (ComparableIntegers<L, R>) {
+      compare(std::cmp_less_equal(left, right), right);
+    } else {
+      compare(left <= right, right);
+    }
+    return *this;
+  }
+  template <class R>
+  CheckedLeft& operator>(const R& right) {
+    if constexpr (ComparableIntegers<L, R>) {
+      compare(std::cmp_greater(left, right), right);
+    } else {
+      compare(left > right, right);
+    }
+    return *this;
+  }
+  template <class R>
+  CheckedLeft& operator>=(const R& right) {
+    if constexpr (ComparableIntegers<L, R>) {
+      compare(std::cmp_greater_equal(left, right), right);
+    } else {
+      compare(left >= right, right);
+    }
+    return *this;
+  }
 };
 
 struct CheckStart {

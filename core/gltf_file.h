@@ -12,11 +12,18 @@
 
 namespace ensemble {
 
-/// Limits on what a file may claim, so that a hostile one costs bounded time and memory.
-struct GltfReadLimits {
+/// How a file is read, and limits on what it may claim, so that a hostile one costs bounded time
+/// and memory.
+struct GltfReadOptions {
+  /// Weld each primitive: vertices equal in everything become one, in the place of the first of
+  /// them; unused ones go; wedges of one position get one skin binding (design 2). The order of what
+  /// stays is the file's, so a welded primitive without unused vertices is not changed at all.
+  /// False: vertices keep the file's numbers whatever they hold. For files of our own whose numbers
+  /// matter: quantisation (Draco) may have made two of their vertices equal.
+  bool weld = true;
   std::uint64_t max_file_bytes = 1ull << 30;
   std::uint32_t max_json_depth = 64;
-  std::uint64_t max_json_bytes = 256ull << 20;
+  std::uint64_t max_json_bytes = 64ull << 20;
   std::uint64_t max_vertices = 1ull << 24;  ///< over all primitives; _TEMPLATE_VERTEX is a FLOAT
   std::uint64_t max_faces = 1ull << 25;
   std::uint32_t max_nodes = 1u << 16;
@@ -28,18 +35,19 @@ struct GltfReadLimits {
 /// Reads a .glb, or a .gltf with buffers and images in its folder (or below) or as data URIs.
 /// Takes Draco, KHR_mesh_quantization, any index width or none, interleaved, sparse and normalised
 /// accessors, more than four influences (the four largest, renormalised, told in `warnings`),
-/// triangle strips and fans, clips of every interpolation. Each primitive is welded: vertices
-/// equal in everything become one, unused ones go, faces keep their order, faces of zero area stay.
+/// triangle strips and fans, clips of every interpolation. Faces keep their order, faces of zero
+/// area stay (but not the stitches of strips). What the default scene shows is read.
 /// A mesh whose node mirrors (negative determinant) has its winding turned back.
-/// Missing normals are made (area-weighted over equal positions).
+/// Missing normals are made (area-weighted over equal positions). Materials and images that no
+/// triangle uses are left out.
 ///
 /// @throws InputError with a JSON pointer for whatever is malformed, out of range, or beyond
-/// `limits`; SystemError if the file can't be read. Never reads outside the file's own folder.
-RawAsset readGltf(const std::filesystem::path& file, const GltfReadLimits& limits = {});
+/// `options`; SystemError if the file can't be read. Never reads outside the file's own folder.
+RawAsset readGltf(const std::filesystem::path& file, const GltfReadOptions& options = {});
 
 /// The same for a GLB in memory; `name` stands for the file in messages. External URIs are refused.
 RawAsset readGlb(std::span<const std::byte> bytes, const std::string& name,
-                 const GltfReadLimits& limits = {});
+                 const GltfReadOptions& options = {});
 
 struct GlbWriteOptions {
   bool draco = false;  ///< KHR_draco_mesh_compression, sequential: numbers of vertices and faces stay

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace ensemble {
@@ -29,6 +30,7 @@ using RegionId = Id<struct RegionTag>;        ///< a region of the template
 using JointId = Id<struct JointTag>;          ///< a joint of the skeleton
 using ItemId = Id<struct ItemTag>;            ///< an item (one outfit file) of a wardrobe
 using MeshId = Id<struct MeshTag>;            ///< a distinct mesh of SubMeshLists
+using IndexListId = Id<struct IndexListTag>;  ///< a distinct index list of SubMeshLists
 using SubMeshId = Id<struct SubMeshTag>;      ///< what is drawn with one queue
 using CharacterId = Id<struct CharacterTag>;  ///< a person of the crowd
 

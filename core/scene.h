@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,22 +11,10 @@
 #include <vector>
 
 #include "core/math.h"
+#include "core/source_mark.h"
 #include "core/sub_mesh_lists.h"
 
 namespace ensemble {
-
-/// Where a value stood in its file, for messages that can only be made later (unknown outfit).
-struct SourceMark {
-  int line = 0, column = 0;  ///< from 1; 0 where the value is a default or came from --set
-  std::string toString() const;  ///< "line:column", or the key path where line is 0
-  std::string key_path;      ///< "crowd.outfits.casual01"
-};
-
-template <class T>
-struct Marked {
-  T value{};
-  SourceMark mark;
-};
 
 enum class BackgroundKind : std::uint8_t { kSky, kTransparent, kColor };
 
@@ -115,9 +102,14 @@ struct Scene {
 /// `--set key.path=value`: the value is YAML; list entries by number (`people.0.phase=0.5`).
 using SceneOverride = std::pair<std::string, std::string>;
 
-/// Reads a scene and applies overrides. Numbers are strict (`010` and `1e999` are errors); unknown
-/// keys name the nearest known one; duplicate keys, aliases and anchors are errors.
-/// @throws InputError FILE: LINE:COLUMN: ...; UsageError for an override that names no key.
+/// Splits "key.path=value" at its first '='. @throws UsageError without one or without a key.
+SceneOverride parseSceneOverride(const std::string& text);
+
+/// Reads a scene and applies overrides. Every key is described in docs/scene.md. Numbers are strict
+/// (`010` and `1e999` are errors); unknown keys name the nearest known one; duplicate keys, aliases
+/// and anchors are errors. Names of wardrobes, outfits and clips are checked by populateCrowd.
+/// @throws InputError FILE: LINE:COLUMN: ...; UsageError "--set KEY=VALUE: ..." for whatever an
+/// override got wrong.
 Scene loadScene(const std::filesystem::path& file, std::span<const SceneOverride> overrides = {});
 
 /// The same from text; relative wardrobe paths are resolved against `file`'s folder.

@@ -35,15 +35,23 @@ struct Mesh {
 
 enum class SubMeshKind : std::uint8_t { kGarment, kBody };
 
-/// What one queue draws: an index list into a mesh with a material.
+/// Faces of a mesh, stored once however many sub-meshes use them.
+struct IndexList {
+  MeshId mesh;
+  std::vector<std::uint32_t> indices;       ///< 3 per face, into the mesh, in vertex-cache order
+  /// Per face of the list: its FaceId in the template (is_template), else its number in its part.
+  std::vector<std::uint32_t> source_faces;
+  bool is_template = false;
+};
+
+/// What one queue draws: an index list with a material.
 struct SubMesh {
   SubMeshKind kind = SubMeshKind::kBody;
-  MeshId mesh;
-  std::uint32_t material = 0;        ///< index into SubMeshLists::materials
-  std::uint32_t region = 0;          ///< kBody: RegionId; kGarment: index into garment_names
-  std::vector<std::uint32_t> indices;       ///< 3 per face, in vertex-cache order
-  std::vector<std::uint32_t> source_faces;  ///< per face: its number in its source file
-  bool is_template_face = false;     ///< source_faces are FaceIds of the template (not extra faces)
+  IndexListId list;
+  std::uint32_t material = 0;  ///< index into SubMeshLists::materials
+  std::uint32_t region = 0;    ///< kBody: RegionId; kGarment: index into garment_names
+  /// Added to the list's source_faces: a garment's faces are numbered through its parts.
+  std::uint32_t source_face_offset = 0;
 };
 
 /// A material and where it came from.
@@ -55,6 +63,7 @@ struct ListMaterial {
 struct SubMeshLists {
   Technique technique = Technique::kTagged;
   PerId<MeshId, Mesh> meshes;
+  PerId<IndexListId, IndexList> index_lists;
   PerId<SubMeshId, SubMesh> sub_meshes;   ///< garments first, then the body by region: draw order
   std::vector<ListMaterial> materials;    ///< distinct
   std::vector<RawImage> images;           ///< distinct

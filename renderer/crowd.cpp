@@ -1,1 +1,257 @@
-// placeholder
+#include "renderer/crowd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/check.h"
+#include "core/nearest_name.h"
+#include "core/random.h"
+#include "renderer/crowd_streams.h"
+#include "renderer/placement.h"
+#include "renderer/scene_names.h"
+
+namespace ensemble {
+namespace {
+
+/// Chooses a number with a probability in proportion to its weight; one of weight 0 never.
+class WeightedChoice {
+ public:
+  void add(float weight) {
+    sums_.push_back(total() + static_cast<double>(weight));
+    if (weight > 0.0f) last_possible_ = sums_.size() - 1;
+  }
+  double total() const { return sums_.empty() ? 0.0 : sums_.back(); }
+  std::size_t size() const { return sums_.size(); }
+
+  /// @param u in [0, 1). @pre total() > 0
+  std::size_t choose(double u) const {
+    // The first sum beyond u: an entry of weight 0 has the sum of the one before it.
+    const auto found = std::upper_bound(sums_.begin(), sums_.end(), u * total());
+    return std::min(static_cast<std::size_t>(found - sums_.begin()), last_possible_);
+  }
+
+ private:
+  std::vector<double> sums_;
+  std::size_t last_possible_ = 0;
+};
+
+/// What the crowd of one wardrobe wears and does.
+struct WardrobeChoices {
+  bool is_used = false;  ///< its weight is above 0
+  std::vector<Combination> outfits;
+  WeightedChoice outfit;
+  std::vector<std::uint32_t> clips;
+  WeightedChoice clip;
+};
+
+class CrowdBuilder {
+ public:
+  CrowdBuilder(const Scene& scene, std::span<const Wardrobe> wardrobes)
+      : scene_(scene), wardrobes_(wardrobes), names_(scene, wardrobes), choices_(wardrobes.size()) {}
+
+  Crowd build() {
+    weighWardrobes();
+    weighOutfits();
+    weighClips();
+    crowd_.characters.reserve(scene_.people.size() + scene_.crowd.count);
+    addPeople();
+    addCrowd();
+    internCombinations();
+    return std::move(crowd_);
+  }
+
+ private:
+  void weighWardrobes() {
+    std::vector<float> weights(wardrobes_.size(), scene_.crowd.wardrobes.empty() ? 1.0f : 0.0f);
+    for (const WeightedName& named : scene_.crowd.wardrobes) {
+      weights[names_.wardrobe(named.name, named.mark)] = named.weight;
+    }
+    for (std::size_t w = 0; w < weights.size(); ++w) {
+      wardrobe_.add(weights[w]);
+      choices_[w].is_used = weights[w] > 0.0f;
+    }
+    ENSEMBLE_CHECK(wardrobe_.total() > 0.0);  // parseScene refuses weights that are all 0
+  }
+
+  void weighOutfits() {
+    if (scene_.crowd.outfits.empty()) {
+      for (std::size_t w = 0; w < wardrobes_.size(); ++w) weighAllOutfits(w);
+      return;
+    }
+    for (const WeightedName& named : scene_.crowd.outfits) {
+      const FoundOutfit found = names_.outfit(named.name, named.mark);
+      WardrobeChoices& choices = choices_[found.wardrobe];
+      const Combination combination{found.item};
+      if (std::find(choices.outfits.begin(), choices.outfits.end(), combination) != choices.outfits.end()) {
+        names_.fail(named.mark, fmt::format("the outfit {} is here a second time", quotedName(named.name)),
+                    "remove one of them");
+      }
+      choices.outfits.push_back(combination);
+      choices.outfit.add(named.weight);
+    }
+    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
+      if (!choices_[w].is_used || choices_[w].outfit.total() > 0.0) continue;
+      names_.fail(scene_.crowd.outfits.front().mark,
+                  fmt::format("crowd.outfits has nothing to wear for {}", names_.describe(w)),
+                  "list an outfit of it with a weight above 0, or give the wardrobe the weight 0 in "
+                  "crowd.wardrobes");
+    }
+  }
+
+  /// Every complete outfit alike; single pieces only where there is nothing else.
+  void weighAllOutfits(std::size_t wardrobe) {
+    const PerItem<Item>& items = wardrobes_[wardrobe].items;
+    WardrobeChoices& choices = choices_[wardrobe];
+    const auto is_full = [](const Item& item) { return item.slot == "full"; };
+    const bool has_full = std::any_of(items.begin(), items.end(), is_full);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (has_full && !is_full(items[ItemId(i)])) continue;
+      choices.outfits.push_back({ItemId(i)});
+    }
+    if (items.empty()) choices.outfits.push_back({});
+    for (std::size_t i = 0; i < choices.outfits.size(); ++i) choices.outfit.add(1.0f);
+  }
+
+  void weighClips() {
+    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
+      WardrobeChoices& choices = choices_[w];
+      // A wardrobe that nobody of the crowd is dressed from needn't have the clips.
+      if (!choices.is_used) continue;
+      for (const WeightedName& named : scene_.crowd.clips) {
+        choices.clips.push_back(names_.clipOf(w, named.name, named.mark));
+        choices.clip.add(named.weight);
+      }
+      if (choices.clips.empty()) {
+        choices.clips.push_back(0);
+        choices.clip.add(1.0f);
+      }
+      ENSEMBLE_CHECK(choices.clip.total() > 0.0);
+    }
+  }
+
+  void addPeople() {
+    const RandomStream tints(scene_.crowd.seed, crowd_stream::kPersonTint);
+    for (std::size_t i = 0; i < scene_.people.size(); ++i) {
+      const ScenePerson& person = scene_.people[i];
+      Character character;
+      character.wardrobe = wardrobeOf(person, i);
+      Combination items;
+      if (!person.outfit.value.empty()) {
+        items.push_back(names_.outfitOf(character.wardrobe, person.outfit.value, person.outfit.mark));
+      }
+      character.combination = addWorn({character.wardrobe, std::move(items)});
+      if (!person.clip.value.empty()) {
+        character.clip = names_.clipOf(character.wardrobe, person.clip.value, person.clip.mark);
+      }
+      character.phase = person.phase;
+      character.speed = person.speed;
+      character.position = person.position;
+      character.heading = person.heading;
+      character.scale = person.scale;
+      character.tint_seed = person.tint.value_or(tints.bits32(i));
+      crowd_.characters.push_back(character);
+    }
+  }
+
+  std::uint32_t wardrobeOf(const ScenePerson& person, std::size_t number) const {
+    if (!person.wardrobe.value.empty()) return names_.wardrobe(person.wardrobe.value, person.wardrobe.mark);
+    if (wardrobes_.size() == 1) return 0;
+    std::vector<std::string> keys;
+    for (const SceneWardrobe& wardrobe : scene_.wardrobes) keys.push_back(wardrobe.key);
+    names_.fail(person.mark, fmt::format("people.{} names none of {} wardrobes", number, keys.size()),
+                "add 'wardrobe:' with " + quotedList(keys));
+  }
+
+  void addCrowd() {
+    const SceneCrowd& crowd = scene_.crowd;
+    const std::uint64_t seed = crowd.seed;
+    const RandomStream wardrobes(seed, crowd_stream::kWardrobe), outfits(seed, crowd_stream::kOutfit),
+        clips(seed, crowd_stream::kClip), phases(seed, crowd_stream::kPhase),
+        scales(seed, crowd_stream::kScale), tints(seed, crowd_stream::kTint);
+    std::vector<std::uint32_t> first_worn;  // per wardrobe: its first outfit in worn_
+    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
+      first_worn.push_back(static_cast<std::uint32_t>(worn_.size()));
+      for (const Combination& items : choices_[w].outfits) worn_.push_back({w, items});
+    }
+    const std::vector<Place> places = place();
+    for (std::uint32_t i = 0; i < crowd.count; ++i) {
+      Character character;
+      character.wardrobe = static_cast<std::uint32_t>(wardrobe_.choose(wardrobes.uniform(i)));
+      const WardrobeChoices& choices = choices_[character.wardrobe];
+      character.combination = first_worn[character.wardrobe] +
+                              static_cast<std::uint32_t>(choices.outfit.choose(outfits.uniform(i)));
+      character.clip = choices.clips[choices.clip.choose(clips.uniform(i))];
+      character.phase = phases.uniformFloat(i);
+      character.position = places[i].position;
+      character.heading = places[i].heading;
+      character.scale = std::min(
+          crowd.scale[0] + (crowd.scale[1] - crowd.scale[0]) * scales.uniformFloat(i), crowd.scale[1]);
+      character.tint_seed = tints.bits32(i);
+      crowd_.characters.push_back(character);
+    }
+  }
+
+  std::vector<Place> place() const {
+    const SceneCrowd& crowd = scene_.crowd;
+    try {
+      return placePeople(crowd.placement, crowd.count, crowd.seed);
+    } catch (const std::length_error&) {
+      names_.fail({0, 0, "crowd.placement"},
+                  fmt::format("positions are too coarse for a spacing of {} this far from the origin",
+                              crowd.placement.spacing),
+                  "move crowd.placement.center nearer to [0, 0, 0], or raise the spacing");
+    }
+  }
+
+  std::uint32_t addWorn(WornCombination worn) {
+    worn_.push_back(std::move(worn));
+    return static_cast<std::uint32_t>(worn_.size() - 1);
+  }
+
+  /// Characters so far index worn_, which holds equal ones and ones that nobody wears.
+  void internCombinations() {
+    std::vector<std::uint8_t> is_worn(worn_.size(), 0);
+    for (const Character& character : crowd_.characters) is_worn[character.combination] = 1;
+    const auto before = [](const WornCombination& a, const WornCombination& b) {
+      return a.wardrobe != b.wardrobe ? a.wardrobe < b.wardrobe : a.items < b.items;
+    };
+    std::vector<WornCombination>& distinct = crowd_.combinations;
+    for (std::size_t i = 0; i < worn_.size(); ++i) {
+      if (is_worn[i] != 0) distinct.push_back(worn_[i]);
+    }
+    std::sort(distinct.begin(), distinct.end(), before);
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    std::vector<std::uint32_t> renumbered(worn_.size(), 0);
+    for (std::size_t i = 0; i < worn_.size(); ++i) {
+      if (is_worn[i] == 0) continue;
+      const auto found = std::lower_bound(distinct.begin(), distinct.end(), worn_[i], before);
+      renumbered[i] = static_cast<std::uint32_t>(found - distinct.begin());
+    }
+    for (Character& character : crowd_.characters) character.combination = renumbered[character.combination];
+  }
+
+  const Scene& scene_;
+  std::span<const Wardrobe> wardrobes_;
+  SceneNames names_;
+  WeightedChoice wardrobe_;
+  std::vector<WardrobeChoices> choices_;
+  std::vector<WornCombination> worn_;
+  Crowd crowd_;
+};
+
+}  // namespace
+
+Mat4 Character::worldFromModel() const {
+  const float sine = std::sin(heading) * scale, cosine = std::cos(heading) * scale;
+  return Mat4(Vec4(cosine, 0.0f, -sine, 0.0f), Vec4(0.0f, scale, 0.0f, 0.0f), Vec4(sine, 0.0f, cosine, 0.0f),
+              Vec4(position, 1.0f));
+}
+
+Crowd populateCrowd(const Scene& scene, std::span<const Wardrobe> wardrobes) {
+  return CrowdBuilder(scene, wardrobes).build();
+}
+
+}  // namespace ensemble

@@ -22,7 +22,7 @@ struct WornCombination {
 struct Character {
   std::uint32_t wardrobe = 0;     ///< index into Scene::wardrobes
   std::uint32_t combination = 0;  ///< index into Crowd::combinations
-  std::uint32_t clip = 0;         ///< index into that wardrobe's TemplateBody::clips
+  std::uint32_t clip = 0;         ///< index into that wardrobe's TemplateBody::clips; 0 if it has none
   float phase = 0.0f;             ///< part of the clip that has run at time 0, 0 .. 1
   float speed = 1.0f;             ///< factor on the clip's speed
   Vec3 position{0.0f};
@@ -38,10 +38,15 @@ struct Crowd {
   std::vector<WornCombination> combinations;   ///< distinct, by wardrobe, then by items
 };
 
-/// Fills a scene's placements. The same scene and wardrobes give the same crowd, on every machine.
+/// Fills a scene's placements. The same scene and wardrobes give the same crowd, on every machine
+/// (random.h). What is random about a person depends on the seed and the person's number in the
+/// crowd only, so that a change of weights or scale moves nobody. An outfit's weight counts within
+/// the wardrobe chosen for the person; without `outfits`, each item of slot "full" is alike (of any
+/// slot, if none is "full"; the bare body, if there is no item).
 /// @param wardrobes one for each of scene.wardrobes
 /// @throws InputError with line:column for an outfit, clip or wardrobe that does not exist, naming
-/// the nearest; for a bare outfit name that several wardrobes have; for a clip that one lacks.
+/// the nearest; for a bare outfit name that several wardrobes have; for a clip that one lacks; for
+/// a wardrobe of which no outfit is listed; for a spacing that can't be kept so far from the origin.
 Crowd populateCrowd(const Scene& scene, std::span<const Wardrobe> wardrobes);
 
 }  // namespace ensemble

@@ -1,0 +1,134 @@
+#include "renderer/crowd_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "core/input_error.h"
+#include "renderer/vk/descriptors.h"
+#include "spirv/pose.comp.h"
+
+namespace ensemble {
+namespace {
+
+constexpr std::uint64_t kJointBytes = 3 * sizeof(vec4);
+
+constexpr std::initializer_list<vk::DescriptorType> kPoseBindings = {
+    vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
+    vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eCombinedImageSampler};
+
+}  // namespace
+
+CrowdState::CrowdState(gpu::Device& device, const Crowd& crowd, const Animation& animation,
+                       std::uint64_t max_buffer_bytes) {
+  makeCharacters(crowd, animation);
+  makeChunks(device, animation, max_buffer_bytes);
+  texture_ = uploadAnimation(device, animation);
+  clips_ = gpu::uploadBuffer(device, std::as_bytes(std::span(animation.clips)),
+                             vk::BufferUsageFlagBits::eStorageBuffer, "the table of clips");
+  createPipeline(device);
+  setTime(0.0);
+}
+
+void CrowdState::makeCharacters(const Crowd& crowd, const Animation& animation) {
+  for (std::uint32_t i = 0; i < crowd.characters.size(); ++i) {
+    const Character& person = crowd.characters[i];
+    const Mat4 world_from_model = person.worldFromModel();
+    GpuCharacter character{};
+    for (int row = 0; row < 3; ++row) {
+      character.world_from_model[row] = {world_from_model[0][row], world_from_model[1][row],
+                                         world_from_model[2][row], world_from_model[3][row]};
+    }
+    character.clip = animation.first_clip[person.wardrobe] + person.clip;
+    ENSEMBLE_CHECK(character.clip < animation.clips.size());
+    character.combination = person.combination;
+    character.tint_seed = person.tint_seed;
+    character.number = i;
+    characters_.push_back(character);
+    combinations_.push_back(person.combination);
+    playing_.push_back({animation.seconds[character.clip], person.phase, person.speed});
+    const Sphere& sphere = animation.bounds[character.clip];
+    bounds_.push_back({Vec3(world_from_model * Vec4(sphere.center, 1.0f)), sphere.radius * person.scale});
+  }
+}
+
+void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std::uint64_t max_buffer_bytes) {
+  std::uint64_t joints = 0;
+  for (GpuCharacter& character : characters_) {
+    const std::uint64_t own_joints = animation.clips[character.clip].joint_count;
+    const bool fits = (joints + own_joints) * kJointBytes <= max_buffer_bytes;
+    if (chunks_.empty() || !fits || (chunks_.back().count + 1) * sizeof(GpuCharacter) > max_buffer_bytes) {
+      chunks_.emplace_back();
+      chunks_.back().first = character.number;
+      joints = 0;
+    }
+    character.first_joint = static_cast<std::uint32_t>(joints);
+    joints += own_joints;
+    ++chunks_.back().count;
+  }
+  for (CrowdChunk& chunk : chunks_) {
+    const GpuCharacter& last = characters_[chunk.first + chunk.count - 1];
+    const std::uint64_t chunk_joints = last.first_joint + animation.clips[last.clip].joint_count;
+    using Usage = vk::BufferUsageFlagBits;
+    chunk.characters = gpu::Buffer(device, chunk.count * sizeof(GpuCharacter), Usage::eStorageBuffer,
+                                   gpu::Buffer::Kind::kUpload, fmt::format("a buffer of {} people", chunk.count));
+    std::copy_n(characters_.begin() + chunk.first, chunk.count, chunk.characters.mapped<GpuCharacter>().begin());
+    chunk.palette = gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer,
+                                gpu::Buffer::Kind::kDevice, fmt::format("the poses of {} people", chunk.count));
+  }
+}
+
+void CrowdState::createPipeline(gpu::Device& device) {
+  sampler_ = ENSEMBLE_VK(vk::raii::Sampler(device.handle(), vk::SamplerCreateInfo{}));  // texelFetch only
+  set_layout_ = gpu::makeSetLayout(device, kPoseBindings, vk::ShaderStageFlagBits::eCompute);
+  sets_ = gpu::DescriptorSets(device, set_layout_, kPoseBindings, static_cast<std::uint32_t>(chunks_.size()));
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_CHARACTERS, chunks_[i].characters);
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_PALETTE, chunks_[i].palette);
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_CLIPS, clips_);
+    gpu::writeImage(device, sets_[i], ENSEMBLE_BINDING_POSE_ANIMATION, texture_, &sampler_,
+                    vk::ImageLayout::eShaderReadOnlyOptimal);
+  }
+  const vk::PushConstantRange push{
+      .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(std::uint32_t)};
+  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
+      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
+                                                    .pSetLayouts = &*set_layout_,
+                                                    .pushConstantRangeCount = 1,
+                                                    .pPushConstantRanges = &push}));
+  const vk::raii::ShaderModule shader = gpu::makeShader(device, kPoseComp);
+  pipeline_ = ENSEMBLE_VK(vk::raii::Pipeline(
+      device.handle(), nullptr,
+      vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                              .module = *shader,
+                                              .pName = "main"},
+                                    .layout = *layout_}));
+}
+
+void CrowdState::setTime(double seconds) {
+  for (const CrowdChunk& chunk : chunks_) {
+    const std::span<GpuCharacter> mapped = chunk.characters.mapped<GpuCharacter>();
+    for (std::uint32_t i = 0; i < chunk.count; ++i) {
+      const Playing& playing = playing_[chunk.first + i];
+      mapped[i].phase = phaseAt(seconds, playing.clip_seconds, playing.phase, playing.speed);
+    }
+  }
+}
+
+void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) const {
+  using Stage = vk::PipelineStageFlagBits2;
+  // The last frame's vertex shaders may still be reading what is overwritten here.
+  gpu::recordBarrier(commands, Stage::eVertexShader, {}, Stage::eComputeShader, {});
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets_[i], nullptr);
+    commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, chunks_[i].count);
+    constexpr std::uint32_t kGroupsX = ENSEMBLE_POSE_GROUPS_X;
+    commands.dispatch(std::min(chunks_[i].count, kGroupsX), (chunks_[i].count + kGroupsX - 1) / kGroupsX, 1);
+  }
+  gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
+                     Stage::eVertexShader, vk::AccessFlagBits2::eShaderStorageRead);
+}
+
+}  // namespace ensemble

@@ -1,0 +1,21 @@
+// Which stream of random numbers decides what about a person (random.h). A number keeps its
+// meaning for ever: another order would change every crowd.
+#pragma once
+
+#include <cstdint>
+
+namespace ensemble::crowd_stream {
+
+inline constexpr std::uint64_t kWardrobe = 1;
+inline constexpr std::uint64_t kOutfit = 2;
+inline constexpr std::uint64_t kClip = 3;
+inline constexpr std::uint64_t kPhase = 4;
+inline constexpr std::uint64_t kHeading = 5;
+inline constexpr std::uint64_t kScale = 6;
+inline constexpr std::uint64_t kTint = 7;
+inline constexpr std::uint64_t kJitterX = 8;
+inline constexpr std::uint64_t kJitterZ = 9;
+inline constexpr std::uint64_t kDisc = 10;
+inline constexpr std::uint64_t kPersonTint = 11;  ///< of `people`, by number in the file
+
+}  // namespace ensemble::crowd_stream

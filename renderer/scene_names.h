@@ -1,0 +1,47 @@
+// The names in a scene, looked up in its wardrobes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/scene.h"
+#include "core/wardrobe.h"
+
+namespace ensemble {
+
+/// An item of one of the scene's wardrobes.
+struct FoundOutfit {
+  std::uint32_t wardrobe = 0;
+  ItemId item;
+};
+
+/// Every lookup throws InputError at the name's place in the scene file, naming the nearest names.
+class SceneNames {
+ public:
+  /// Both must outlive this. @pre one wardrobe for each of scene.wardrobes
+  SceneNames(const Scene& scene, std::span<const Wardrobe> wardrobes);
+
+  std::uint32_t wardrobe(const std::string& key, const SourceMark& mark) const;
+  /// A bare name that one wardrobe has, or KEY/NAME.
+  FoundOutfit outfit(const std::string& name, const SourceMark& mark) const;
+  /// A bare name, or KEY/NAME of that wardrobe.
+  ItemId outfitOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const;
+  std::uint32_t clipOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const;
+
+  /// For messages: "the wardrobe 'women'", or its folder where it has no key.
+  std::string describe(std::uint32_t wardrobe) const;
+  [[noreturn]] void fail(const SourceMark& mark, const std::string& what, const std::string& mend) const;
+
+ private:
+  ItemId findItem(std::uint32_t wardrobe, std::string_view name) const;
+  /// The wardrobe before the '/' of KEY/NAME, if there is one.
+  std::optional<std::uint32_t> wardrobePrefix(const std::string& name) const;
+  /// How each outfit can be called in crowd.outfits.
+  std::vector<std::string> allOutfitNames() const;
+
+  const Scene& scene_;
+  std::span<const Wardrobe> wardrobes_;
+};
+
+}  // namespace ensemble

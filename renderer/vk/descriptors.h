@@ -1,0 +1,42 @@
+// Descriptor sets made in one go: a layout, a pool that fits, and writes.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "renderer/vk/memory.h"
+
+namespace ensemble::gpu {
+
+/// Bindings 0, 1, 2, ... of the given types, one descriptor each.
+vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
+                                            std::initializer_list<vk::DescriptorType> types,
+                                            vk::ShaderStageFlags stages);
+
+/// `count` sets of one layout, with the pool that they live in.
+class DescriptorSets {
+ public:
+  DescriptorSets() = default;
+  DescriptorSets(const Device& device, const vk::raii::DescriptorSetLayout& layout,
+                 std::initializer_list<vk::DescriptorType> types, std::uint32_t count);
+
+  vk::DescriptorSet operator[](std::size_t i) const { return *sets_[i]; }
+  std::size_t size() const { return sets_.size(); }
+
+ private:
+  vk::raii::DescriptorPool pool_ = nullptr;
+  std::vector<vk::raii::DescriptorSet> sets_;
+};
+
+void writeBuffer(const Device& device, vk::DescriptorSet set, std::uint32_t binding, const Buffer& buffer,
+                 vk::DescriptorType type = vk::DescriptorType::eStorageBuffer);
+/// @param sampler null for a storage image
+void writeImage(const Device& device, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
+                const vk::raii::Sampler* sampler, vk::ImageLayout layout);
+
+/// A shader module of embedded SPIR-V.
+vk::raii::ShaderModule makeShader(const Device& device, std::span<const std::uint32_t> spirv);
+
+}  // namespace ensemble::gpu

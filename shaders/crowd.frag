@@ -1,0 +1,27 @@
+// People's colour: linear, alpha 1 where somebody is.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/crowd_types.h"
+#include "shaders/crowd_sets.glsl"
+#include "shaders/assets.glsl"
+#include "shaders/lighting.glsl"
+
+layout(location = 0) in vec4 normal_u;
+layout(location = 1) in vec4 world_v;
+layout(location = 2) flat in uvec2 who;
+
+layout(location = 0) out vec4 color;
+
+void main() {
+  GpuMaterial material = materials[draws[who.y].material];
+  vec3 albedo = baseColor(material, vec2(normal_u.w, world_v.w)).rgb;
+  albedo = tinted(albedo, material, characters[who.x].tint_seed);
+
+  vec3 normal = normalize(gl_FrontFacing ? normal_u.xyz : -normal_u.xyz);
+  vec3 from_camera = world_v.xyz - view.camera.xyz;
+  float facing = clamp(-dot(normal, normalize(from_camera)), 0.0, 1.0);
+  float sun = max(dot(normal, view.to_sun.xyz), 0.0) * sunShare(world_v.xyz, normal);
+  vec3 light = view.sun_color.rgb * sun + ambient(normal);
+  vec3 sheen = material.sheen * pow(1.0 - facing, 4.0) * (ambient(normal) + 0.5 * view.sun_color.rgb * sun);
+  color = vec4(faded(albedo * light + sheen, from_camera), 1.0);
+}

@@ -1,0 +1,17 @@
+// What the shaders that draw people read. Included after crowd_types.h.
+layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
+
+layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_CHARACTERS, std430) readonly buffer Characters {
+  GpuCharacter characters[];
+};
+layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_PALETTE, std430) readonly buffer Palette {
+  vec4 palette[];  // world_from_model of each person's joints: three rows each
+};
+layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_QUEUE, std430) readonly buffer Queue {
+  uint queue[];  // characters, one sub-mesh's queue after the other
+};
+layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_DRAWS, std430) readonly buffer Draws {
+  GpuDraw draws[];
+};
+
+layout(push_constant) uniform Push { uint first_draw; };

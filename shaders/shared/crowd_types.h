@@ -1,0 +1,143 @@
+// What the crowd's shaders and the renderer share: structures, bindings, constants. Compiled by C++
+// and GLSL; a test holds the offsets against the compiled shaders' own reflection.
+#ifndef ENSEMBLE_SHADERS_SHARED_CROWD_TYPES_H
+#define ENSEMBLE_SHADERS_SHARED_CROWD_TYPES_H
+
+// Descriptor sets: one view's constants and shadow map; one chunk of people with one pass's queues;
+// the scene's materials, with the faces of one mesh chunk; one texture array with one sampler.
+#define ENSEMBLE_SET_VIEW 0
+#define ENSEMBLE_SET_CROWD 1
+#define ENSEMBLE_SET_ASSETS 2
+#define ENSEMBLE_SET_TEXTURE 3
+
+#define ENSEMBLE_BINDING_VIEW 0
+#define ENSEMBLE_BINDING_SHADOW_MAP 1
+
+#define ENSEMBLE_BINDING_CHARACTERS 0
+#define ENSEMBLE_BINDING_PALETTE 1
+#define ENSEMBLE_BINDING_QUEUE 2
+#define ENSEMBLE_BINDING_DRAWS 3
+
+#define ENSEMBLE_BINDING_MATERIALS 0
+#define ENSEMBLE_BINDING_TINTS 1
+#define ENSEMBLE_BINDING_HIDDEN_FIRST 2
+#define ENSEMBLE_BINDING_HIDDEN_WORDS 3
+#define ENSEMBLE_BINDING_SOURCE_FACES 4
+
+// The pose pass has a set of its own.
+#define ENSEMBLE_BINDING_POSE_CHARACTERS 0
+#define ENSEMBLE_BINDING_POSE_PALETTE 1
+#define ENSEMBLE_BINDING_POSE_CLIPS 2
+#define ENSEMBLE_BINDING_POSE_ANIMATION 3
+
+// The post pass: the resolved linear picture in, the sRGB picture out.
+#define ENSEMBLE_BINDING_POST_LINEAR 0
+#define ENSEMBLE_BINDING_POST_SRGB 1
+
+// Specialisation constants of the fragment shaders.
+#define ENSEMBLE_CONSTANT_TEXTURED 0
+#define ENSEMBLE_CONSTANT_CUT_OUT 1
+#define ENSEMBLE_CONSTANT_HIDE_FACES 2
+
+// Outputs of the AOV pass.
+#define ENSEMBLE_AOV_CHARACTER 0
+#define ENSEMBLE_AOV_REGION 1
+#define ENSEMBLE_AOV_FACE 2
+#define ENSEMBLE_AOV_DEPTH 3
+#define ENSEMBLE_AOV_NORMAL 4
+
+// Texels of a row of the animation texture: a multiple of 3, so that a matrix stays in one row.
+#define ENSEMBLE_ANIMATION_WIDTH 3072
+
+// Invocations that share a character in the pose pass.
+#define ENSEMBLE_POSE_GROUP 64
+// Groups along x of the pose pass's dispatch.
+#define ENSEMBLE_POSE_GROUPS_X 1024
+
+#define ENSEMBLE_POST_GROUP 8
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math.h"
+
+namespace ensemble {
+using uint = std::uint32_t;
+using vec4 = glm::vec4;
+using mat4 = glm::mat4;
+#endif
+
+/// One person (design 5).
+struct GpuCharacter {
+  vec4 world_from_model[3];  ///< rows
+  uint clip;                 ///< into the clips
+  float phase;               ///< part of the clip that has run at this frame, 0 .. 1
+  uint combination;          ///< into the table of hidden faces
+  uint tint_seed;
+  uint first_joint;          ///< its first matrix in the palette
+  uint number;               ///< in the whole crowd
+  uint unused_0;
+  uint unused_1;
+};
+
+/// A clip in the animation texture. Texel 3 * (first_matrix + key * joint_count + joint) + row.
+struct GpuClip {
+  uint first_matrix;
+  uint key_count;
+  uint joint_count;
+  uint unused_0;
+};
+
+/// One instanced draw: what gl_DrawID stands for.
+struct GpuDraw {
+  uint material;
+  uint region;      ///< AOV number, 1 and up
+  uint first_face;  ///< into the source faces of its mesh chunk
+  uint face_offset; ///< added to what stands there
+};
+
+struct GpuMaterial {
+  vec4 base_color;    ///< linear
+  vec4 tint;          ///< rgb: 1 / the colour that a tint replaces; a: how far it does, 0 .. 1
+  uint tint_first;    ///< its tints in the table of tints: first, count
+  uint tint_count;
+  uint tint_key;      ///< hashed with a person's tint seed
+  uint texture_layer;
+  float alpha_cutoff;
+  float tint_spread;  ///< brightness varies by +- this part
+  float sheen;        ///< strength of the light along silhouettes
+  float unused_0;
+};
+
+/// One view's constants, std140.
+struct GpuView {
+  mat4 clip_from_world;
+  mat4 shadow_from_world;     ///< clip space of the shadow map
+  vec4 camera;                ///< xyz: position, metres; w: near plane
+  vec4 ray_origin;            ///< xyz: view ray of pixel (0, 0)'s corner; w: metres to fully faded
+  vec4 ray_x;                 ///< what a pixel to the right adds to it; w: 1 with shadows
+  vec4 ray_y;                 ///< what a pixel down adds to it; w: side of a shadow texel, metres
+  vec4 to_sun;                ///< unit; w: size of the shadow map, texels
+  vec4 sun_color;             ///< linear; w: 1 draws the sky's gradient, 0 its horizon everywhere
+  vec4 ambient_up;            ///< linear light from above; w: alpha of the background
+  vec4 ambient_down;          ///< linear light from below
+  vec4 horizon;               ///< linear; distance fades into it
+  vec4 zenith;                ///< linear
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(GpuCharacter) == 80 && offsetof(GpuCharacter, clip) == 48 &&
+              offsetof(GpuCharacter, phase) == 52 && offsetof(GpuCharacter, combination) == 56 &&
+              offsetof(GpuCharacter, tint_seed) == 60 && offsetof(GpuCharacter, first_joint) == 64 &&
+              offsetof(GpuCharacter, number) == 68);
+static_assert(sizeof(GpuClip) == 16 && offsetof(GpuClip, joint_count) == 8);
+static_assert(sizeof(GpuDraw) == 16 && offsetof(GpuDraw, face_offset) == 12);
+static_assert(sizeof(GpuMaterial) == 64 && offsetof(GpuMaterial, tint) == 16 &&
+              offsetof(GpuMaterial, tint_first) == 32 && offsetof(GpuMaterial, texture_layer) == 44 &&
+              offsetof(GpuMaterial, alpha_cutoff) == 48 && offsetof(GpuMaterial, sheen) == 56);
+static_assert(sizeof(GpuView) == 288 && offsetof(GpuView, shadow_from_world) == 64 &&
+              offsetof(GpuView, camera) == 128 && offsetof(GpuView, zenith) == 272);
+}  // namespace ensemble
+#endif
+#endif

@@ -1,0 +1,27 @@
+// A person's vertex in the world: the blend of its joints' matrices (Lister, Laycock, Day, equation 1).
+layout(location = ENSEMBLE_ATTRIBUTE_POSITION) in vec3 model_position;
+layout(location = ENSEMBLE_ATTRIBUTE_JOINTS) in uvec4 joints;
+layout(location = ENSEMBLE_ATTRIBUTE_WEIGHTS) in vec4 weights;
+
+struct WorldFromModel {
+  vec4 row_0, row_1, row_2;
+};
+
+// The pose pass has multiplied world_from_model into the palette already. Four joints always: where
+// a shader runs on the CPU a branch is a mask, and skipping a joint of weight 0 saves nothing.
+WorldFromModel blendedJoints(uint first_joint) {
+  uvec4 at = (uvec4(first_joint) + joints) * 3u;
+  WorldFromModel m;
+  m.row_0 = palette[at.x] * weights.x + palette[at.y] * weights.y + palette[at.z] * weights.z +
+            palette[at.w] * weights.w;
+  m.row_1 = palette[at.x + 1] * weights.x + palette[at.y + 1] * weights.y + palette[at.z + 1] * weights.z +
+            palette[at.w + 1] * weights.w;
+  m.row_2 = palette[at.x + 2] * weights.x + palette[at.y + 2] * weights.y + palette[at.z + 2] * weights.z +
+            palette[at.w + 2] * weights.w;
+  return m;
+}
+
+vec3 worldPosition(WorldFromModel m) {
+  vec4 p = vec4(model_position, 1.0);
+  return vec3(dot(m.row_0, p), dot(m.row_1, p), dot(m.row_2, p));
+}

@@ -1,0 +1,14 @@
+// The background.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/crowd_types.h"
+
+layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
+#include "shaders/lighting.glsl"
+
+layout(location = 0) out vec4 color;
+
+void main() {
+  vec3 ray = view.ray_origin.xyz + gl_FragCoord.x * view.ray_x.xyz + gl_FragCoord.y * view.ray_y.xyz;
+  color = vec4(skyColor(ray), 1.0);
+}

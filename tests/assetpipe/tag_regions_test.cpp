@@ -1,0 +1,180 @@
+#include "assetpipe/tag_regions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "assetpipe/segment.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/small_people.h"
+
+namespace ensemble {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TemplateBody tubeBody() {
+  std::vector<std::string> warnings;
+  return segmentTemplate(testing::tubeTemplate(), {}, "tube.glb", warnings);
+}
+
+/// Legs all visible, half of the torso's faces, none of the head's.
+RawAsset halfDressed() {
+  return testing::tubeOutfit([](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); });
+}
+
+Item tag(const RawAsset& outfit, std::vector<std::string>* warnings = nullptr, const TagOptions& options = {}) {
+  std::vector<std::string> ignored;
+  return tagOutfit(outfit, tubeBody(), options, "tunic", "tunic.glb", warnings != nullptr ? *warnings : ignored);
+}
+
+void expectHalfDressed(const Item& item) {
+  ASSERT_EQ(item.tags.size(), 3u);
+  EXPECT_EQ(item.tags[RegionId(0)].visibility, Visibility::kFull);
+  EXPECT_EQ(item.tags[RegionId(1)].visibility, Visibility::kPartial);
+  EXPECT_EQ(item.tags[RegionId(1)].visible_faces, 32u);
+  EXPECT_EQ(item.tags[RegionId(2)].visibility, Visibility::kHidden);
+  for (std::uint32_t f = 0; f < 192; ++f) {
+    EXPECT_EQ(item.visible[FaceId(f)] != 0, f < 64 || (f < 128 && f % 2 == 0)) << f;
+  }
+}
+
+TEST(TagRegions, ClassifiesByTheMatchedSet) {
+  const Item item = tag(halfDressed());
+  expectHalfDressed(item);
+  EXPECT_EQ(item.visibleBodyFaceCount(), 96u);
+  EXPECT_EQ(item.dedicatedFaceCount(), 32u);
+  ASSERT_EQ(item.garments.size(), 1u);
+  EXPECT_EQ(item.garments[0].name, "garment.tunic");
+  EXPECT_EQ(item.garmentFaceCount(), 80u);
+  EXPECT_EQ(item.slot, "full");
+  EXPECT_EQ(item.layer, 0);
+}
+
+TEST(TagRegions, SurvivesCopiedMaterialNamesAndSplitPrimitives) {
+  RawAsset outfit = halfDressed();
+  for (RawMaterial& material : outfit.materials) material.name += ".003";
+  auto& primitives = outfit.meshes[0].primitives;
+  RawPrimitive half = primitives[0];
+  half.faces.erase(half.faces.begin(), half.faces.begin() + 20);
+  primitives[0].faces.resize(20);
+  primitives.push_back(half);
+  expectHalfDressed(tag(outfit));
+}
+
+TEST(TagRegions, MapsJointsByName) {
+  RawAsset outfit = halfDressed();
+  const Item plain = tag(outfit);
+  std::swap(outfit.skeleton.joints[0], outfit.skeleton.joints[1]);
+  RawJoint extra = outfit.skeleton.joints[0];  // a joint that nothing uses may be unknown
+  outfit.skeleton.bones.push_back({"prop", 0, {}});
+  extra.bone = 2;
+  outfit.skeleton.joints.push_back(extra);
+  for (RawMeshNode& node : outfit.meshes) {
+    for (RawPrimitive& primitive : node.primitives) {
+      for (RawVertex& vertex : primitive.vertices) {
+        for (std::size_t i = 0; i < 4; ++i) {
+          if (vertex.skin.weights[i] > 0.0f) vertex.skin.joints[i] = vertex.skin.joints[i] == 0 ? 1 : 0;
+        }
+      }
+    }
+  }
+  const Item mapped = tag(outfit);
+  EXPECT_EQ(mapped.garments[0].parts[0].vertices, plain.garments[0].parts[0].vertices);
+}
+
+TEST(TagRegions, RefusesAnotherSkeleton) {
+  RawAsset missing = halfDressed();
+  missing.skeleton.bones[1].name = "chest";
+  EXPECT_INPUT_ERROR(tag(missing),
+                     "tunic.glb: /skins: the outfit is bound to joints that the template's skeleton lacks: 'chest'; bind "
+                     "it to the template's skeleton, or move these weights to the template's joints");
+  RawAsset moved = halfDressed();
+  moved.skeleton.joints[1].joint_from_model[3].y += 0.01f;
+  EXPECT_INPUT_ERROR(tag(moved),
+                     "tunic.glb: /skins: joint 'spine' stands 10.0 mm from the template's in the bind pose; bind the "
+                     "outfit to the template's own skeleton, in the template's pose");
+}
+
+TEST(TagRegions, RefusesAnotherBodyAndTellsHowFar) {
+  RawAsset outfit = halfDressed();
+  for (RawPrimitive& primitive : outfit.meshes[0].primitives) {
+    for (RawVertex& vertex : primitive.vertices) vertex.position.y += 0.004f;
+  }
+  EXPECT_INPUT_ERROR(tag(outfit),
+                     "tunic.glb: /meshes: 96 of the 96 body faces match no face of the template; corners are 4.00 mm "
+                     "(median) to 4.00 mm (maximum) from it; tag it with the template that it was made for");
+}
+
+TEST(TagRegions, KeepsUpToTwoPercentOfUnmatchedFaces) {
+  RawAsset outfit = halfDressed();
+  RawPrimitive& legs = outfit.meshes[0].primitives[0];
+  RawVertex moved = legs.vertices[legs.faces[0][0]];
+  moved.position.x += 0.003f;
+  legs.vertices.push_back(moved);
+  legs.faces[0][0] = static_cast<std::uint32_t>(legs.vertices.size() - 1);  // 1 of 96 faces
+  std::vector<std::string> warnings;
+  const Item item = tag(outfit, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("1 of the 96 body faces match no face of the template (corners up to 3.00 mm off)"));
+  EXPECT_EQ(item.tags[RegionId(0)].visibility, Visibility::kPartial);
+  EXPECT_EQ(item.tags[RegionId(0)].visible_faces, 64u);
+  ASSERT_EQ(item.extra_body.size(), 1u);
+  EXPECT_EQ(item.extra_body[0].region, RegionId(0));
+  EXPECT_EQ(item.extra_body[0].part.faces.size(), 1u);
+
+  legs.faces[1][0] = legs.faces[0][0];  // 2 of 96 are more than 2 %
+  EXPECT_THROW(tag(outfit), InputError);
+}
+
+TEST(TagRegions, RefusesAnOutfitWithoutBody) {
+  EXPECT_INPUT_ERROR(tag(testing::tubeOutfit([](int, int) { return false; })),
+                     "tunic.glb: /materials: there is no body in this outfit: no material is named as one of the "
+                     "template's ('legs', 'torso', 'head'); export the outfit with the body that it dresses, its "
+                     "materials named as the template's, or use --body NODE");
+}
+
+TEST(TagRegions, RefusesAnUnskinnedGarment) {
+  RawAsset outfit = halfDressed();
+  outfit.meshes[1].skinned = false;
+  outfit.meshes[1].json_pointer = "/nodes/4";
+  EXPECT_INPUT_ERROR(tag(outfit),
+                     "tunic.glb: /nodes/4: garment 'garment.tunic' is not skinned; bind it to the skeleton, parent it to "
+                     "a joint, or leave it out of the export");
+}
+
+TEST(TagRegions, TakesTheBodyFromANodeWhereAsked) {
+  RawAsset outfit = halfDressed();
+  for (RawMaterial& material : outfit.materials) material.name = "atlas";
+  TagOptions options;
+  options.body_node = "body";
+  expectHalfDressed(tag(outfit, nullptr, options));
+  options.body_node = "Body";
+  EXPECT_INPUT_ERROR(tag(outfit, nullptr, options),
+                     "tunic.glb: /nodes: no mesh node is named 'Body'; name one with --body (`ensemble inspect` lists them)");
+}
+
+TEST(TagRegions, ReadsSlotAndLayerFromTheScene) {
+  RawAsset outfit = halfDressed();
+  outfit.scene_extras_json = R"({"ensemble": {"slot": "top", "layer": 2}})";
+  const Item item = tag(outfit);
+  EXPECT_EQ(item.slot, "top");
+  EXPECT_EQ(item.layer, 2);
+  outfit.scene_extras_json = R"({"ensemble": {"layer": "outer"}})";
+  EXPECT_INPUT_ERROR(tag(outfit),
+                     "tunic.glb: /scenes: the custom property 'layer' is no whole number from -1000 to 1000; set a number");
+}
+
+TEST(TagRegions, WarnsOnceOfACompleteBody) {
+  std::vector<std::string> warnings;
+  const Item item = tag(testing::tubeOutfit([](int, int) { return true; }), &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("--auto-occlusion"));
+  for (const RegionTag& region : item.tags) EXPECT_EQ(region.visibility, Visibility::kFull);
+  std::vector<std::string> none;
+  tag(halfDressed(), &none);
+  EXPECT_THAT(none, IsEmpty());
+}
+
+}  // namespace
+}  // namespace ensemble
