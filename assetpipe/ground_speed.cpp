@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace ensemble {
 namespace {
 
-constexpr float kContactHeight = 0.015f;   // metres above the clip's lowest point: touches the ground
-constexpr float kStandingSpeed = 0.05f;    // metres a second
-
-std::vector<Vec3> skinnedPositions(const RawSkeleton& skeleton, const std::vector<RawVertex>& vertices,
-                                   std::span<const Transform> local) {
-  const std::vector<Mat4> matrices = skinningMatrices(skeleton, local);
-  std::vector<Vec3> positions;
-  positions.reserve(vertices.size());
-  for (const RawVertex& vertex : vertices) positions.push_back(skinPosition(vertex, matrices));
-  return positions;
-}
+constexpr float kFootHeight = 0.03f;     // metres: joints that come this near to the lowest one are of the feet
+constexpr float kContactRise = 0.005f;   // metres above a foot joint's own lowest place: it stands
+constexpr float kStandingSpeed = 0.05f;  // metres a second
 
 float median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -24,35 +17,58 @@ float median(std::vector<float> values) {
   return *middle;
 }
 
+/// Positions of the joints' bones, per key.
+std::vector<std::vector<Vec3>> jointPaths(const RawSkeleton& skeleton, const Clip& clip) {
+  std::vector<std::vector<Vec3>> paths;
+  std::vector<Mat4> world_from_bone(skeleton.bones.size());
+  for (std::uint32_t key = 0; key < clip.key_count; ++key) {
+    globalPose(skeleton, clip.key(key), world_from_bone);
+    std::vector<Vec3>& positions = paths.emplace_back();
+    for (const RawJoint& joint : skeleton.joints) positions.emplace_back(world_from_bone[joint.bone][3]);
+  }
+  return paths;
+}
+
+/// Each joint's lowest height over the clip, or the lowest float where it is no foot.
+std::vector<float> footHeights(const std::vector<std::vector<Vec3>>& paths) {
+  constexpr float kNoFoot = std::numeric_limits<float>::lowest();
+  std::vector<float> lowest(paths.front().size(), std::numeric_limits<float>::max());
+  for (const auto& positions : paths) {
+    for (std::size_t j = 0; j < lowest.size(); ++j) lowest[j] = std::min(lowest[j], positions[j].y);
+  }
+  // A root on the ground is no foot: it does not leave it.
+  std::vector<bool> moves(lowest.size(), false);
+  for (const auto& positions : paths) {
+    for (std::size_t j = 0; j < lowest.size(); ++j) moves[j] = moves[j] || positions[j] != paths.front()[j];
+  }
+  float ground = std::numeric_limits<float>::max();
+  for (std::size_t j = 0; j < lowest.size(); ++j) {
+    if (moves[j]) ground = std::min(ground, lowest[j]);
+  }
+  for (std::size_t j = 0; j < lowest.size(); ++j) {
+    if (!moves[j] || lowest[j] > ground + kFootHeight) lowest[j] = kNoFoot;
+  }
+  return lowest;
+}
+
 }  // namespace
 
-float groundSpeed(const RawSkeleton& skeleton, const std::vector<RawVertex>& vertices, const Clip& clip) {
-  if (clip.key_count < 2 || !(clip.seconds > 0.0f) || vertices.empty()) return 0.0f;
-  const float interval_seconds = clip.seconds / static_cast<float>(clip.key_count - 1);
-  std::vector<std::vector<Vec3>> poses;
-  float ground = std::numeric_limits<float>::max();
-  for (std::uint32_t key = 0; key < clip.key_count; ++key) {
-    poses.push_back(skinnedPositions(skeleton, vertices, clip.key(key)));
-    for (const Vec3& position : poses.back()) ground = std::min(ground, position.y);
-  }
-
-  // A vertex near the ground at both ends of an interval was carried by it.
+float groundSpeed(const RawSkeleton& skeleton, const Clip& clip) {
+  if (clip.key_count < 2 || !(clip.seconds > 0.0f) || skeleton.joints.empty()) return 0.0f;
+  const std::vector<std::vector<Vec3>> paths = jointPaths(skeleton, clip);
+  const std::vector<float> lowest = footHeights(paths);
   std::vector<float> along_x, along_z;
-  for (std::size_t key = 0; key + 1 < poses.size(); ++key) {
-    Vec3 moved(0.0f);
-    int touching = 0;
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      const Vec3& before = poses[key][v];
-      const Vec3& after = poses[key + 1][v];
-      if (std::max(before.y, after.y) > ground + kContactHeight) continue;
-      moved += after - before;
-      ++touching;
+  for (std::size_t key = 0; key + 1 < paths.size(); ++key) {
+    for (std::size_t j = 0; j < lowest.size(); ++j) {
+      const Vec3& before = paths[key][j];
+      const Vec3& after = paths[key + 1][j];
+      if (std::max(before.y, after.y) > lowest[j] + kContactRise) continue;
+      along_x.push_back(after.x - before.x);
+      along_z.push_back(after.z - before.z);
     }
-    if (touching == 0) continue;
-    along_x.push_back(moved.x / static_cast<float>(touching));
-    along_z.push_back(moved.z / static_cast<float>(touching));
   }
   if (along_x.empty()) return 0.0f;
+  const float interval_seconds = clip.seconds / static_cast<float>(clip.key_count - 1);
   const float speed = glm::length(Vec2(median(along_x), median(along_z))) / interval_seconds;
   return speed < kStandingSpeed ? 0.0f : speed;
 }

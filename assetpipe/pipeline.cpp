@@ -57,7 +57,7 @@ TaggingTemplate readTemplate(const fs::path& file, const PipelineOptions& option
     transferClips(clips, clip_file, result.body);
   }
   for (Clip& clip : result.body.clips) {
-    clip.ground_speed = groundSpeed(result.body.skeleton, result.body.vertices.raw(), clip);
+    clip.ground_speed = groundSpeed(result.body.skeleton, clip);
   }
   result.geometry_hash = geometryHash(result.body);
   return result;

@@ -122,6 +122,14 @@ class Simplifier {
   }
 
   void sumQuadrics() {
+    double area_sum = 0.0;
+    for (const Triangle& face : mesh_.faces) area_sum += glm::length(areaNormal(face));
+    fine_edge_ = 5.0 * std::sqrt(area_sum / static_cast<double>(std::max<std::size_t>(mesh_.faces.size(), 1)));
+    normals_.assign(mesh_.positions.size(), Vec3(0.0f));
+    for (const Triangle& face : mesh_.faces) {
+      for (const std::uint32_t v : face) normals_[v] += Vec3(areaNormal(face));
+    }
+    for (Vec3& normal : normals_) normal /= std::max(glm::length(normal), 1e-12f);
     for (const Triangle& face : mesh_.faces) {
       const Vec3d normal = areaNormal(face);
       const double area = glm::length(normal);
@@ -239,15 +247,19 @@ class Simplifier {
     for (const std::uint32_t f : faces_of_[collapse.from]) {
       Triangle face = mesh_.faces[f];
       if (has(face, collapse.to)) continue;
-      const Vec3d before = areaNormal(face);
-      const double before_area = glm::length(before), before_shape = shape(face, before_area);
+      // Splinters of the grid go away by themselves; only those that would last are refused.
+      const double before_shape = shape(face, glm::length(areaNormal(face)));
       std::replace(face.begin(), face.end(), collapse.from, collapse.to);
       const Vec3d after = areaNormal(face);
       const double after_area = glm::length(after);
-      if (before_area > 1e-12 && glm::dot(before, after) < 0.3 * before_area * after_area) return false;
-      if (after_area < 1e-11) return false;
+      // Faces of the grid are too small to have a direction of their own, so the vertices tell it.
+      for (const std::uint32_t v : face) {
+        if (glm::dot(Vec3d(normals_[v]), after) < 0.25 * after_area) return false;
+      }
       const double after_shape = shape(face, after_area);
-      if (after_shape < 0.12 && after_shape < before_shape) return false;
+      if (after_area < 1e-10) return false;
+      const bool is_fine = 2.0 * after_area < after_shape * fine_edge_ * fine_edge_;
+      if (!is_fine && after_shape < 0.15 && after_shape < before_shape) return false;
     }
     return true;
   }
@@ -317,6 +329,8 @@ class Simplifier {
   const SimplifySurfaceOptions& options_;
   std::size_t face_count_;
   std::vector<std::vector<std::uint32_t>> faces_of_;
+  double fine_edge_ = 0.0;  // metres; longer edges are those of the result
+  std::vector<Vec3> normals_;  // of the vertices, averaged over the fine mesh
   std::vector<Quadric> quadrics_;
   std::vector<double> importance_;
   std::vector<std::uint8_t> on_line_, is_queued_;

@@ -28,7 +28,7 @@ std::size_t GlbBuilder::addAccessor(ViewKind kind, std::span<const std::byte> by
     View view;
     if (kind == ViewKind::kIndices) {
       view.target = kElementArrayBuffer;
-    } else if (kind != ViewKind::kOther) {
+    } else if (kind != ViewKind::kInverseBind && kind != ViewKind::kAnimation) {
       view.target = kArrayBuffer;
       view.stride = static_cast<std::uint32_t>(bytes.size() / count);
     }

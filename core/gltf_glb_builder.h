@@ -2,6 +2,7 @@
 // implementation.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -14,7 +15,19 @@
 namespace ensemble {
 
 /// What a buffer view holds; accessors of a kind share one view.
-enum class ViewKind { kIndices, kPosition, kNormal, kUv, kJoints, kWeights, kTemplateVertex, kOther };
+/// (The Khronos validator wants inverse bind matrices apart from other data.)
+enum class ViewKind {
+  kIndices,
+  kPosition,
+  kNormal,
+  kUv,
+  kJoints,
+  kWeights,
+  kTemplateVertex,
+  kInverseBind,
+  kAnimation,
+};
+inline constexpr std::size_t kViewKindCount = 9;
 
 /// What an accessor says of its numbers.
 struct AccessorShape {
@@ -54,7 +67,7 @@ class GlbBuilder {
   };
 
   std::vector<View> views_;
-  std::array<std::optional<std::size_t>, 8> view_of_kind_;
+  std::array<std::optional<std::size_t>, kViewKindCount> view_of_kind_;
   Json accessors_ = Json::array();
 };
 

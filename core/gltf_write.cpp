@@ -310,7 +310,7 @@ class GlbWriter {
       for (int i = 0; i < 16; ++i) matrices.push_back(joint.joint_from_model[i / 4][i % 4]);
     }
     const std::size_t accessor =
-        builder_.addAccessor<float>(ViewKind::kOther, matrices, skeleton.joints.size(), {"MAT4"});
+        builder_.addAccessor<float>(ViewKind::kInverseBind, matrices, skeleton.joints.size(), {"MAT4"});
     builder_.json["skins"] = Json::array({{{"inverseBindMatrices", accessor}, {"joints", std::move(joints)}}});
   }
 
@@ -338,7 +338,7 @@ class GlbWriter {
   std::size_t addTimes(const std::vector<float>& times) {
     const auto [entry, is_new] = accessor_of_times_.try_emplace(times, 0);
     if (is_new) {
-      entry->second = builder_.addAccessor<float>(ViewKind::kOther, times, times.size(), {"SCALAR"});
+      entry->second = builder_.addAccessor<float>(ViewKind::kAnimation, times, times.size(), {"SCALAR"});
       builder_.setBounds(entry->second, std::span(&times.front(), 1), std::span(&times.back(), 1));
     }
     return entry->second;
@@ -370,7 +370,7 @@ class GlbWriter {
       for (int c = 0; c < (is_rotation ? 4 : 3); ++c) values.push_back(value[c]);
     }
     const std::size_t input = addTimes(channel.times);
-    const std::size_t output = builder_.addAccessor<float>(ViewKind::kOther, values, channel.values.size(),
+    const std::size_t output = builder_.addAccessor<float>(ViewKind::kAnimation, values, channel.values.size(),
                                                            {is_rotation ? "VEC4" : "VEC3"});
     channels.push_back({{"sampler", samplers.size()},
                         {"target",

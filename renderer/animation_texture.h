@@ -7,15 +7,11 @@
 
 #include "core/math.h"
 #include "core/wardrobe.h"
+#include "renderer/sphere.h"
 #include "renderer/vk/memory.h"
 #include "shaders/shared/crowd_types.h"
 
 namespace ensemble {
-
-struct Sphere {
-  Vec3 center{0.0f};
-  float radius = 0.0f;
-};
 
 /// What the texture holds, before it is one. A wardrobe without clips has one: rest, a single key.
 /// Each wardrobe has one joint more than its skeleton, the last, which never moves: vertices that

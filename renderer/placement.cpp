@@ -122,18 +122,20 @@ class DiscSample {
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
   static constexpr std::int64_t kReach = 2;  ///< cells to each side that may hold a point too near
-  static constexpr int kTries = 24;          ///< Bridson's k; he takes 30
+  static constexpr int kTries = TRIES;          ///< Bridson's k; he takes 30
+  static constexpr double kSpread = SPREAD;
 
-  /// One more point between one and two spacings from `from`, if one is found.
+  /// One more point near `from`, if one is found.
   bool addAround(Point from) {
     for (int i = 0; i < kTries;) {
-      const double dx = (4.0 * random_.uniform(draw_) - 2.0) * spacing_;
-      const double dz = (4.0 * random_.uniform(draw_ + 1) - 2.0) * spacing_;
+      const double x = 2.0 * random_.uniform(draw_) - 1.0, z = 2.0 * random_.uniform(draw_ + 1) - 1.0;
+      const double squared = x * x + z * z;
       draw_ += 2;
-      const double squared = dx * dx + dz * dz;
-      if (squared < squared_spacing_ || squared > 4.0 * squared_spacing_) continue;
+      if (squared > 1.0 || squared < 1e-6) continue;  // a uniform direction
       ++i;
-      if (tryAdd(from.x - center_x_ + dx, from.z - center_z_ + dz)) return true;
+      const double distance = spacing_ * (1.0 + kSpread * random_.uniform(draw_++));
+      const double factor = distance / std::sqrt(squared);
+      if (tryAdd(from.x - center_x_ + x * factor, from.z - center_z_ + z * factor)) return true;
     }
     return false;
   }

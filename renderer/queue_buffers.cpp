@@ -66,11 +66,11 @@ void QueueBuffers::buildDraws(Chunk& chunk, const CrowdAssets& assets) {
     const std::uint32_t length = chunk.queues.lengths()[i];
     if (length == 0) continue;
     const DrawItem& item = assets.items()[i];
-    commands[draw_count] = {.indexCount = item.index_count,
-                            .instanceCount = length,
-                            .firstIndex = item.first_index,
-                            .vertexOffset = item.vertex_offset,
-                            .firstInstance = chunk.queues.offsets()[i]};
+    commands[draw_count] = vk::DrawIndexedIndirectCommand{.indexCount = item.index_count,
+                                                        .instanceCount = length,
+                                                        .firstIndex = item.first_index,
+                                                        .vertexOffset = item.vertex_offset,
+                                                        .firstInstance = chunk.queues.offsets()[i]};
     draws[draw_count] = item.gpu;
     if (chunk.batches.empty() || chunk.batches.back().state != item.state) {
       chunk.batches.push_back({.state = item.state, .first_draw = draw_count, .draw_count = 0});

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "assetpipe/ground_speed.h"
 #include "assetpipe/pipeline.h"
 #include "assetpipe/report.h"
 #include "core/gltf_file.h"
@@ -69,7 +68,7 @@ TEST_P(PeopleOracle, GroundSpeedIsTheAuthors) {
   const Wardrobe wardrobe = loadWardrobe(folder_.path());
   for (const Clip& clip : wardrobe.body.clips) {
     const float authored = clip.name != "walk" ? 0.0f : GetParam() == "female" ? 1.073f : 1.141f;
-    EXPECT_NEAR(clip.ground_speed, authored, 0.03f) << clip.name;
+    EXPECT_NEAR(clip.ground_speed, authored, 0.01f) << clip.name;
   }
 }
 

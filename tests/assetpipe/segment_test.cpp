@@ -123,7 +123,7 @@ TEST(Segment, RulesComeFromAFile) {
   EXPECT_THAT(rules[1].joints, ElementsAre("pelvis", "spine"));
   std::ofstream(file) << "regions:\n  top: {faces: [9-0]}\n";
   EXPECT_INPUT_ERROR(readRegionRules(file), file.string() +
-      ": 2:16: '9-0' is no range of faces; write a number such as 12 or a range such as 0-99");
+      ": 2:17: '9-0' is no range of faces; write a number such as 12 or a range such as 0-99");
 }
 
 TEST(Segment, LetsWedgesOfOnePositionShareSkinWeights) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -76,8 +77,9 @@ TEST(Random, IsUniform) {
 TEST(Grid, IsSquareAndCentred) {
   const auto places = placePeople(placementOf(PlacementKind::kGrid, 2.0f), 9, 1);
   ASSERT_EQ(places.size(), 9u);
-  for (int i = 0; i < 9; ++i) {
-    EXPECT_EQ(places[static_cast<std::size_t>(i)].position, Vec3(2.0f * (i % 3 - 1), 0, 2.0f * (i / 3 - 1)));
+  for (std::size_t i = 0; i < 9; ++i) {
+    const Vec3 expected(2.0f * static_cast<float>(i % 3) - 2.0f, 0, 2.0f * static_cast<float>(i / 3) - 2.0f);
+    EXPECT_EQ(places[i].position, expected);
   }
 }
 

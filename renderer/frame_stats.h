@@ -1,0 +1,32 @@
+// What a frame cost. Counts are exact and repeatable; times are of this machine.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace ensemble {
+
+/// One pass over the crowd.
+struct PassStats {
+  std::uint64_t draw_calls = 0;  ///< instanced draws of people: one per sub-mesh with a queue
+  std::uint64_t triangles = 0;   ///< drawn, of all instances
+  std::optional<std::uint64_t> vertex_invocations;  ///< measured; none where the device can't
+};
+
+struct FrameStats {
+  std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
+  PassStats shadow;                    ///< the shadow map
+  PassStats main;                      ///< the picture
+  std::uint64_t gpu_mesh_bytes = 0;    ///< vertices and indices of all meshes
+  double frame_ms = 0.0;               ///< from call to finished picture, AOVs left out
+  double cpu_ms = 0.0;                 ///< of that, before the device was given its work
+
+  std::uint64_t drawCalls() const { return shadow.draw_calls + main.draw_calls; }
+  std::uint64_t triangles() const { return shadow.triangles + main.triangles; }
+  std::optional<std::uint64_t> vertexInvocations() const {
+    if (!shadow.vertex_invocations || !main.vertex_invocations) return std::nullopt;
+    return *shadow.vertex_invocations + *main.vertex_invocations;
+  }
+};
+
+}  // namespace ensemble

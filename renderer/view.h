@@ -1,0 +1,59 @@
+// A view: from where, how large, on what background (design 6). No Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "core/image_file.h"
+#include "core/scene.h"
+#include "renderer/frame_names.h"
+#include "renderer/frame_stats.h"
+
+namespace ensemble {
+
+/// Some kinds of AOV.
+class AovSet {
+ public:
+  AovSet() = default;
+  AovSet(std::initializer_list<Aov> aovs) {
+    for (const Aov aov : aovs) add(aov);
+  }
+  void add(Aov aov) { bits_ |= bit(aov); }
+  bool has(Aov aov) const { return (bits_ & bit(aov)) != 0; }
+  bool empty() const { return bits_ == 0; }
+
+ private:
+  static unsigned bit(Aov aov) { return 1u << static_cast<unsigned>(aov); }
+  unsigned bits_ = 0;
+};
+
+struct View {
+  SceneCamera camera;
+  SceneLight light;
+  bool ground = true;               ///< not drawn on a transparent background
+  std::uint32_t width = 1280, height = 720;
+  std::uint32_t samples = 4;        ///< 1 or 4
+  BackgroundKind background = BackgroundKind::kSky;
+  Vec3 background_color{0.0f};      ///< sRGB, for BackgroundKind::kColor
+  AovSet aovs;
+
+  bool drawsGround() const { return ground && background != BackgroundKind::kTransparent; }
+};
+
+/// The view that a scene asks for.
+View viewOf(const Scene& scene);
+
+/// A view's pictures; rows from the top. Given again, its memory is used again.
+struct Picture {
+  Image8 color;
+  // AOVs, empty unless asked for; one sample at each pixel's centre.
+  std::vector<std::uint32_t> character;  ///< 0: nobody; else 1 + number
+  std::vector<std::uint32_t> region;     ///< 1 + the template's region; garments after (AovNumbers)
+  std::vector<std::uint32_t> face;       ///< 1 + the face's number in its source file
+  std::vector<float> depth;              ///< metres along the view axis; 0: nothing there
+  std::vector<float> normal;             ///< world space, 3 per pixel; 0: nothing there
+  FrameStats stats;
+};
+
+}  // namespace ensemble

@@ -1,0 +1,49 @@
+// From a view to what its shaders read, and to the people whom it needs. Pure functions, no Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "renderer/sphere.h"
+#include "renderer/view.h"
+#include "shaders/shared/crowd_types.h"
+
+namespace ensemble {
+
+/// Right-handed camera frame in the world.
+struct CameraFrame {
+  Vec3 right, up, forward;
+};
+CameraFrame cameraFrame(const SceneCamera& camera);
+
+/// Reversed depth without a far plane: depth is near_plane / distance along the view axis.
+Mat4 clipFromWorld(const View& view);
+
+/// The planes that bound a picture; a point is inside where all dot(plane, (p, 1)) >= 0.
+struct Frustum {
+  Vec4 planes[5];  ///< unit normals: left, right, bottom, top, near
+  bool touches(const Sphere& sphere) const;
+};
+Frustum frustumOf(const View& view);
+
+/// Numbers of the people whose bounds touch the picture, ascending. Appends nothing twice.
+void findVisible(const Frustum& frustum, std::span<const Sphere> bounds, std::vector<std::uint32_t>& visible);
+
+/// An orthographic shadow map over the people who matter to a view: who is seen, or whose shadow on
+/// the ground is, no farther away than three times the nearest, but 50 metres at least.
+/// Its size moves in steps and its place by whole texels, so that shadows do not swim.
+struct ShadowFit {
+  Mat4 shadow_from_world{1.0f};  ///< x, y in -1 .. 1; depth 1 towards the sun
+  float texel_side = 0.0f;       ///< metres
+  std::uint32_t size = 0;        ///< texels a side
+};
+ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds);
+
+/// Numbers of the people who may cast into a shadow map, ascending.
+void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vector<std::uint32_t>& casters);
+
+/// What the shaders read of a view.
+GpuView makeGpuView(const View& view, const ShadowFit& fit);
+
+}  // namespace ensemble
