@@ -56,9 +56,13 @@ class OutfitTagger {
     item_.materials = outfit_.materials;
     item_.images = outfit_.images;
     readSlot();
-    mapJoints();
     splitBodyFromGarments();
-    matchBody();
+    matchBody();  // before the joints: of another person's outfit its body tells most
+    mapJoints();
+    for (Garment& garment : item_.garments) {
+      for (RawPrimitive& part : garment.parts) part = withTemplateJoints(std::move(part));
+    }
+    if (matches_.unmatched > 0) keepUnmatchedFaces();
     item_.tags = tagRegions(body_, item_.visible, item_.extra_body);
     warnIfComplete();
     return std::move(item_);
@@ -151,7 +155,7 @@ class OutfitTagger {
         if (is_body) {
           body_primitives_.push_back({&primitive, material});
         } else {
-          garment.parts.push_back(withTemplateJoints(primitive));
+          garment.parts.push_back(primitive);
         }
       }
       if (garment.parts.empty()) continue;
@@ -206,39 +210,39 @@ class OutfitTagger {
         for (std::size_t k = 0; k < 3; ++k) added.corners[k] = part.primitive->vertices[face[k]].position;
       }
     }
-    const FaceMatches matches = matchFaces(body_, embedded, options_.tolerance);
-    refuseAnotherBody(matches, embedded.size());
+    matches_ = matchFaces(body_, embedded, options_.tolerance);
+    refuseAnotherBody();
     item_.visible.assign(body_.faces.size(), 0);
-    for (const FaceId face : matches.template_face) {
+    for (const FaceId face : matches_.template_face) {
       if (face.valid()) item_.visible[face] = 1;
     }
-    if (matches.unmatched > 0) keepUnmatchedFaces(matches, embedded.size());
   }
 
-  void refuseAnotherBody(const FaceMatches& matches, std::size_t face_count) const {
-    if (matches.unmatched <= kMaxUnmatchedShare * static_cast<double>(face_count)) return;
+  void refuseAnotherBody() const {
+    const std::size_t face_count = matches_.template_face.size();
+    if (matches_.unmatched <= kMaxUnmatchedShare * static_cast<double>(face_count)) return;
     fail("/meshes",
          fmt::format("{} of the {} body faces match no face of the template; corners are {:.2f} mm (median) to {:.2f} mm "
                      "(maximum) from it",
-                     matches.unmatched, face_count, matches.median_distance * 1000.0f, matches.max_distance * 1000.0f),
-         matches.median_distance > options_.tolerance
+                     matches_.unmatched, face_count, matches_.median_distance * 1000.0f, matches_.max_distance * 1000.0f),
+         matches_.median_distance > options_.tolerance
              ? "tag it with the template that it was made for"
              : "leave the faces of the template's body as they are, or raise --tolerance");
   }
 
   /// Design 3: a few faces that a garment reshaped stay as geometry of the outfit.
-  void keepUnmatchedFaces(const FaceMatches& matches, std::size_t face_count) {
+  void keepUnmatchedFaces() {
     warnings_.push_back(fmt::format(
         "{} of the {} body faces match no face of the template (corners up to {:.2f} mm off); they stay as geometry of "
         "the outfit and their regions count as partial",
-        matches.unmatched, face_count, matches.max_distance * 1000.0f));
+        matches_.unmatched, matches_.template_face.size(), matches_.max_distance * 1000.0f));
     std::size_t number = 0;
     for (const BodyPrimitive& part : body_primitives_) {
       std::map<RegionId, RawPrimitive> extra;
       std::map<std::pair<RegionId, std::uint32_t>, std::uint32_t> kept_vertices;  // (region, vertex) -> new number
       const RawPrimitive source = withTemplateJoints(*part.primitive);
       for (const Triangle& face : source.faces) {
-        if (matches.template_face[number++].valid()) continue;
+        if (matches_.template_face[number++].valid()) continue;
         const RegionId region = nearestRegion(source, face);
         RawPrimitive& target = extra[region];
         target.material = source.material;
@@ -290,6 +294,7 @@ class OutfitTagger {
   std::vector<std::string>& warnings_;
   std::vector<std::uint16_t> joint_map_;        ///< per joint of the outfit: the template's
   std::vector<BodyPrimitive> body_primitives_;
+  FaceMatches matches_;                         ///< of the body primitives' faces, in order
   Item item_;
 };
 

@@ -2,7 +2,7 @@
 add_library(ensemble_warnings INTERFACE)
 target_compile_options(ensemble_warnings INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
-  -Wno-restrict  # GCC 12 warns wrongly of std::string's operator+ (GCC bug 105651)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 warns wrongly of std::string's operator+ (GCC bug 105651)
   $<$<BOOL:${ENSEMBLE_WERROR}>:-Werror>)
 
 # Floating point must give the same bits on every machine: no contraction into fused operations.

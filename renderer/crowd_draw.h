@@ -37,11 +37,44 @@ class VertexCounter {
   std::vector<bool> was_used_;
 };
 
+/// Binds what a batch needs. Sets that stay are bound again: a batch is a whole call of many draws.
+inline void bindBatch(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const DrawState& state) {
+  const vk::PipelineLayout layout = *draw.layout->pipelineLayout();
+  const VertexChunk& vertices = draw.assets->vertexChunk(state.vertex_chunk);
+  const IndexChunk& indices = draw.assets->indexChunk(state.index_chunk);
+  commands.setCullMode(state.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+  commands.bindVertexBuffers(0, vertices.vertices.handle(), vk::DeviceSize{0});
+  commands.bindIndexBuffer(indices.indices.handle(), 0, indices.type);
+  const std::array<vk::DescriptorSet, 2> sets = {draw.layout->assetSet(state.index_chunk),
+                                                 draw.assets->textures().set(state.texture_set)};
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, ENSEMBLE_SET_ASSETS, sets, nullptr);
+}
+
+/// @param counter null: count nothing
 /// @param pipeline_of the pipeline of a DrawState
 template <class PipelineOf>
 void recordCrowd(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, VertexCounter* counter,
-                 std::uint32_t counted_pass, const PipelineOf& pipeline_of);
+                 std::uint32_t counted_pass, const PipelineOf& pipeline_of) {
+  const vk::PipelineLayout layout = *draw.layout->pipelineLayout();
+  vk::Pipeline bound;
+  for (std::size_t i = 0; i < draw.queues->chunks().size(); ++i) {
+    const QueueBuffers::Chunk& chunk = draw.queues->chunks()[i];
+    if (chunk.batches.empty()) continue;
+    const std::array<vk::DescriptorSet, 2> sets = {draw.view_set, draw.queues->set(i)};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, ENSEMBLE_SET_VIEW, sets, nullptr);
+    for (const DrawBatch& batch : chunk.batches) {
+      const vk::Pipeline pipeline = *pipeline_of(batch.state);
+      if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+      if (!bound && counter) counter->begin(commands, counted_pass);
+      bound = pipeline;
+      bindBatch(commands, draw, batch.state);
+      commands.pushConstants<std::uint32_t>(layout, vk::ShaderStageFlagBits::eVertex, 0, batch.first_draw);
+      constexpr std::uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
+      commands.drawIndexedIndirect(chunk.commands.handle(), std::uint64_t{batch.first_draw} * kStride,
+                                   batch.draw_count, kStride);
+    }
+  }
+  if (bound && counter) counter->end(commands, counted_pass);
+}
 
 }  // namespace ensemble
-
-#include "renderer/crowd_draw_inl.h"

@@ -41,6 +41,14 @@ std::uint32_t attributeCount(const PipelineOptions& options) {
 
 }  // namespace
 
+VariantPipelines noPipelines() {
+  return {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
+}
+
+std::size_t variantIndex(ShaderVariant variant) {
+  return (variant.textured ? 1u : 0u) + (variant.cut_out ? 2u : 0u) + (variant.hides_faces ? 4u : 0u);
+}
+
 vk::raii::Pipeline makePipeline(const gpu::Device& device, const vk::raii::PipelineLayout& layout,
                                 const PipelineOptions& options) {
   const VariantData variant{options.variant.textured, options.variant.cut_out, options.variant.hides_faces};

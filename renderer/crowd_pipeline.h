@@ -33,13 +33,15 @@ struct PipelineOptions {
 vk::raii::Pipeline makePipeline(const gpu::Device& device, const vk::raii::PipelineLayout& layout,
                                 const PipelineOptions& options);
 
-/// A pipeline for each variant that a pass may need; made when first asked for.
+/// The pipelines of a pass by variant; those that nothing needs are null.
+using VariantPipelines = std::array<vk::raii::Pipeline, 8>;
+VariantPipelines noPipelines();
+std::size_t variantIndex(ShaderVariant variant);
+
 template <class Make>
-const vk::raii::Pipeline& variantOf(std::array<vk::raii::Pipeline, 8>& pipelines, ShaderVariant variant,
-                                    const Make& make) {
-  const std::size_t index = (variant.textured ? 1u : 0u) + (variant.cut_out ? 2u : 0u) + (variant.hides_faces ? 4u : 0u);
-  if (!*pipelines[index]) pipelines[index] = make(variant);
-  return pipelines[index];
+void makeIfMissing(VariantPipelines& pipelines, ShaderVariant variant, const Make& make) {
+  vk::raii::Pipeline& pipeline = pipelines[variantIndex(variant)];
+  if (!*pipeline) pipeline = make(variant);
 }
 
 }  // namespace ensemble

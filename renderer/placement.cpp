@@ -1,12 +1,15 @@
 // The disc is Bridson's "Fast Poisson disk sampling in arbitrary dimensions" (SIGGRAPH sketches
 // 2007). Departures: positions are rounded to 32 bits before they are tested, so that the least
 // distance holds for what is drawn; directions come from rejection, not from sine and cosine, so
-// that the same places come out on every machine; the sample is larger than needed and cut to the
-// nearest `count`, which leaves a round crowd with exactly that many people.
+// that the same places come out on every machine; new points are tried nearer to the old ones (67 %
+// of a square per person is filled, not 62 %) and around the old ones in turn, not at random, which
+// keeps the cells in the cache; the sample is larger than needed and cut to the nearest `count`,
+// which leaves a round crowd with exactly that many people.
 #include "renderer/placement.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "core/check.h"
@@ -99,20 +102,14 @@ class DiscSample {
     const double cells = std::ceil(2.0 * radius / cell_) + 2.0 * kReach + 2.0;
     ENSEMBLE_CHECK(cells < 40'000.0);
     side_ = static_cast<std::int64_t>(cells);
-    cells_.assign(static_cast<std::size_t>(side_ * side_), kEmpty);
+    cells_.assign(static_cast<std::size_t>(side_ * side_), Cell());
   }
 
-  /// Stops when no disc of the spacing fits any more, as far as kTries can tell.
+  /// Stops when there is no room beside any point, as far as kTries can tell.
   void grow() {
     tryAdd(0.0, 0.0);
-    std::vector<std::uint32_t> active{0};
-    while (!active.empty()) {
-      const std::size_t chosen = random_.bits(draw_++) % active.size();
-      if (addAround(points_[active[chosen]])) {
-        active.push_back(static_cast<std::uint32_t>(points_.size() - 1));
-      } else {
-        active[chosen] = active.back();
-        active.pop_back();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      while (addAround(points_[i])) {
       }
     }
   }
@@ -120,10 +117,13 @@ class DiscSample {
   std::vector<Point>& points() { return points_; }
 
  private:
-  static constexpr std::uint32_t kEmpty = 0xffffffffu;
+  /// The point in a cell; where there is none, one that is far from all.
+  struct Cell {
+    float x = std::numeric_limits<float>::infinity(), z = 0.0f;
+  };
   static constexpr std::int64_t kReach = 2;  ///< cells to each side that may hold a point too near
-  static constexpr int kTries = TRIES;          ///< Bridson's k; he takes 30
-  static constexpr double kSpread = SPREAD;
+  static constexpr int kTries = 16;          ///< in vain before a point is given up; Bridson: 30
+  static constexpr double kSpread = 0.5;     ///< new points are 1 to 1 + this spacings away; Bridson: 1
 
   /// One more point near `from`, if one is found.
   bool addAround(Point from) {
@@ -148,19 +148,19 @@ class DiscSample {
     if (point.squared_radius > radius_ * radius_) return false;
     const std::int64_t column = cellOf(x), row = cellOf(z);
     for (std::int64_t r = row - kReach; r <= row + kReach; ++r) {
-      const std::uint32_t* const cells = cells_.data() + r * side_;
+      const Cell* const cells = cells_.data() + r * side_;
       for (std::int64_t c = column - kReach; c <= column + kReach; ++c) {
-        if (cells[c] != kEmpty && isTooNear(points_[cells[c]], point)) return false;
+        if (isTooNear(cells[c], point)) return false;
       }
     }
-    std::uint32_t& cell = cells_[static_cast<std::size_t>(row * side_ + column)];
-    if (cell != kEmpty) return false;
-    cell = static_cast<std::uint32_t>(points_.size());
+    Cell& cell = cells_[static_cast<std::size_t>(row * side_ + column)];
+    if (std::isfinite(cell.x)) return false;
+    cell = {point.x, point.z};
     points_.push_back(point);
     return true;
   }
 
-  bool isTooNear(const Point& a, const Point& b) const {
+  bool isTooNear(const Cell& a, const Point& b) const {
     const double dx = static_cast<double>(a.x) - b.x, dz = static_cast<double>(a.z) - b.z;
     return dx * dx + dz * dz < squared_spacing_;
   }
@@ -173,15 +173,15 @@ class DiscSample {
   RandomStream random_;
   std::uint64_t draw_ = 0;
   std::int64_t side_ = 0;
-  std::vector<std::uint32_t> cells_;
+  std::vector<Cell> cells_;
   std::vector<Point> points_;
 };
 
 void placeDisc(const ScenePlacement& placement, std::uint64_t seed, std::vector<Place>& places) {
   const std::size_t count = places.size();
-  // A maximal sample has about 0.68 points per squared spacing; a little less is asked for, and the
-  // edge is ragged.
-  double radius = placement.spacing * (std::sqrt(static_cast<double>(count) / (0.66 * kTwoPi / 2.0)) + 0.5);
+  // A sample has 0.66 to 0.68 points per squared spacing; a little less is counted on.
+  constexpr double kDensity = 0.64, kPi64 = kTwoPi / 2.0;
+  double radius = placement.spacing * (std::sqrt(static_cast<double>(count) / (kDensity * kPi64)) + 0.5);
   for (int attempt = 0; attempt < 8; ++attempt, radius *= 1.1) {
     DiscSample sample(placement, radius, seed);
     sample.grow();

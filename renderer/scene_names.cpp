@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "core/check.h"
 #include "core/input_error.h"
@@ -13,9 +12,14 @@ namespace ensemble {
 namespace {
 
 constexpr std::size_t kNamedInMessages = 3;
+constexpr std::size_t kFewNames = 6;
 
+/// "write 'a' or 'b'": the nearest names where they are near, else all if they are few.
 std::string writeNearest(const std::string& name, std::span<const std::string> known, const char* if_none) {
-  return known.empty() ? if_none : "write " + quotedList(nearestNames(name, known, kNamedInMessages));
+  if (known.empty()) return if_none;
+  const std::vector<std::string> nearest = nearestNames(name, known, kNamedInMessages);
+  const bool is_near = 2 * editDistance(name, nearest.front()) <= name.size();
+  return "write " + (is_near || known.size() > kFewNames ? quotedList(nearest) : quotedList(known));
 }
 
 std::vector<std::string> itemNames(const Wardrobe& wardrobe) {
@@ -69,38 +73,48 @@ std::optional<std::uint32_t> SceneNames::wardrobePrefix(const std::string& name)
   return std::nullopt;
 }
 
-std::vector<std::string> SceneNames::allOutfitNames() const {
-  std::map<std::string, int> owners;
+std::string SceneNames::writeNearestOutfit(const std::string& name) const {
+  std::vector<std::string> known;
   for (const Wardrobe& wardrobe : wardrobes_) {
-    for (const Item& item : wardrobe.items) ++owners[item.name];
+    for (const Item& item : wardrobe.items) {
+      if (std::find(known.begin(), known.end(), item.name) == known.end()) known.push_back(item.name);
+    }
   }
+  if (known.empty()) return "add outfits to the wardrobes";
+  std::vector<std::string> full_names;
+  for (const std::string& near : nearestNames(name, known, kNamedInMessages)) {
+    const std::vector<std::string> owned = fullNames(near);
+    if (owned.size() == 1) {
+      full_names.push_back(near);
+    } else {
+      full_names.insert(full_names.end(), owned.begin(), owned.end());
+    }
+  }
+  return "write " + quotedList(full_names);
+}
+
+std::vector<std::string> SceneNames::fullNames(const std::string& bare) const {
   std::vector<std::string> names;
   for (std::uint32_t w = 0; w < wardrobes_.size(); ++w) {
-    for (const Item& item : wardrobes_[w].items) {
-      names.push_back(owners[item.name] > 1 ? scene_.wardrobes[w].key + '/' + item.name : item.name);
-    }
+    if (findItem(w, bare).valid()) names.push_back(scene_.wardrobes[w].key + '/' + bare);
   }
   return names;
 }
 
 FoundOutfit SceneNames::outfit(const std::string& name, const SourceMark& mark) const {
   std::vector<FoundOutfit> found;
-  std::vector<std::string> full_names;
   for (std::uint32_t w = 0; w < wardrobes_.size(); ++w) {
     const ItemId item = findItem(w, name);
-    if (!item.valid()) continue;
-    found.push_back({w, item});
-    full_names.push_back(scene_.wardrobes[w].key + '/' + name);
+    if (item.valid()) found.push_back({w, item});
   }
   if (found.size() == 1) return found[0];
   if (found.size() > 1) {
     fail(mark, fmt::format("{} wardrobes have an outfit {}", found.size(), quotedName(name)),
-         "write " + quotedList(full_names));
+         "write " + quotedList(fullNames(name)));
   }
   if (const auto w = wardrobePrefix(name)) return {*w, outfitOf(*w, name, mark)};
   if (wardrobes_.size() == 1) return {0, outfitOf(0, name, mark)};
-  fail(mark, fmt::format("no wardrobe has an outfit {}", quotedName(name)),
-       writeNearest(name, allOutfitNames(), "add outfits to the wardrobes"));
+  fail(mark, fmt::format("no wardrobe has an outfit {}", quotedName(name)), writeNearestOutfit(name));
 }
 
 ItemId SceneNames::outfitOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const {

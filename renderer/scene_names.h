@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/scene.h"
 #include "core/wardrobe.h"
@@ -37,8 +40,9 @@ class SceneNames {
   ItemId findItem(std::uint32_t wardrobe, std::string_view name) const;
   /// The wardrobe before the '/' of KEY/NAME, if there is one.
   std::optional<std::uint32_t> wardrobePrefix(const std::string& name) const;
-  /// How each outfit can be called in crowd.outfits.
-  std::vector<std::string> allOutfitNames() const;
+  /// KEY/NAME in every wardrobe that has it.
+  std::vector<std::string> fullNames(const std::string& bare) const;
+  std::string writeNearestOutfit(const std::string& name) const;
 
   const Scene& scene_;
   std::span<const Wardrobe> wardrobes_;

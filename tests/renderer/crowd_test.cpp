@@ -213,18 +213,18 @@ TEST(CrowdErrors, NamesThatDoNotExist) {
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress1: 1}}\n", two()),
             "a.yaml: 3:37: no wardrobe has an outfit 'dress1'; write 'dress01'");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {casul01: 1}}\n", two()),
-            "a.yaml: 3:38: no wardrobe has an outfit 'casul01'; write 'sport01'");
+            "a.yaml: 3:38: no wardrobe has an outfit 'casul01'; write 'women/casual01' or 'men/casual01'");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {men/dress01: 1}}\n", two()),
-            "a.yaml: 3:42: the wardrobe 'men' has no outfit 'dress01'; write 'sport01'");
+            "a.yaml: 3:42: the wardrobe 'men' has no outfit 'dress01'; write 'casual01' or 'sport01'");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, wardrobes: {womn: 1}}\n", two()),
-            "a.yaml: 3:37: there is no wardrobe 'womn'; write 'women' or 'men'");
+            "a.yaml: 3:37: there is no wardrobe 'womn'; write 'women'");
   EXPECT_EQ(errorOf(kOne + "crowd: {count: 1, wardrobes: {w: 1}}\n", one()),
             "a.yaml: 3:34: there is no wardrobe 'w': the scene's only one has no key; remove the name, or give "
             "'wardrobe: {KEY: FOLDER}'");
   EXPECT_EQ(errorOf(kOne + "people: [{outfit: sprot01}]\n", one()),
             "a.yaml: 3:19: the wardrobe 'w' has no outfit 'sprot01'; write 'sport01'");
   EXPECT_EQ(errorOf(kTwo + "people: [{wardrobe: men, outfit: women/dress01}]\n", two()),
-            "a.yaml: 3:34: the wardrobe 'men' has no outfit 'women/dress01'; write 'sport01'");
+            "a.yaml: 3:34: the wardrobe 'men' has no outfit 'women/dress01'; write 'casual01' or 'sport01'");
   EXPECT_EQ(errorOf(kOne + "people: [{clip: wlak}]\n", one()),
             "a.yaml: 3:17: the wardrobe 'w' has no clip 'wlak'; write 'walk'");
   EXPECT_EQ(errorOf(kOne + "people: [{wardrobe: w}]\n", one()),
@@ -251,7 +251,7 @@ TEST(CrowdErrors, NamesThatMeanTooMuchOrTooLittle) {
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1, women/dress01: 1}, wardrobes: {women: 1}}\n", two()),
             "a.yaml: 3:56: the outfit 'women/dress01' is here a second time; remove one of them");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, clips: {walk: 1, dance: 1}}\n", two()),
-            "a.yaml: 3:43: the wardrobe 'men' has no clip 'dance'; write 'walk'");
+            "a.yaml: 3:43: the wardrobe 'men' has no clip 'dance'; write 'idle' or 'walk'");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, clips: {dance: 1}, wardrobes: {women: 1, men: 0}}\n", two()),
             "no error");
 }
@@ -264,7 +264,7 @@ TEST(CrowdErrors, AreToldByKeyPathWhereTheNameCameFromSet) {
     FAIL() << "did not throw";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "a.yaml: crowd.outfits.dres01: the wardrobe 'w' has no outfit 'dres01'; write 'sport01'");
+                 "a.yaml: crowd.outfits.dres01: the wardrobe 'w' has no outfit 'dres01'; write 'casual01', 'casual02' or 'sport01'");
   }
 }
 

@@ -1,0 +1,62 @@
+// A frame's stages in order: state, queues, shadow, colour, AOVs, sRGB, host.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "renderer/aov_pass.h"
+#include "renderer/color_pass.h"
+#include "renderer/crowd_assets.h"
+#include "renderer/crowd_state.h"
+#include "renderer/post_pass.h"
+#include "renderer/queue_buffers.h"
+#include "renderer/shadow_pass.h"
+#include "renderer/view_setup.h"
+#include "renderer/view_targets.h"
+
+namespace ensemble {
+
+class FrameLoop {
+ public:
+  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state, std::uint64_t max_buffer_bytes);
+
+  /// Draws views at a time, one after the other. @throws SystemError if targets don't fit
+  void render(std::span<const View> views, double seconds, std::span<Picture> pictures);
+
+ private:
+  /// Targets of one size, kept for the next frame.
+  struct Slot {
+    ViewTargets targets;
+    gpu::Buffer view_buffer;
+    gpu::DescriptorSets view_set, post_set;
+  };
+  enum Pass : std::uint32_t { kShadow, kMain, kPassCount };
+
+  Slot& slotFor(const View& view, std::uint32_t shadow_size);
+  void buildQueues(const View& view, const ShadowFit& fit);
+  void record(const View& view, const Slot& slot, bool with_poses);
+  void recordAovs(const View& view, const Slot& slot);
+  void submitAndWait();
+  void readStats(const View& view, FrameStats& stats) const;
+
+  gpu::Device& device_;
+  const CrowdAssets& assets_;
+  CrowdState& state_;
+  std::uint64_t max_buffer_bytes_;
+  CrowdLayout layout_;
+  ShadowPass shadow_pass_;
+  ColorPass color_pass_;
+  PostPass post_pass_;
+  std::unique_ptr<AovPass> aov_pass_;  // made when first asked for
+  QueueBuffers main_queues_, shadow_queues_;
+  VertexCounter counter_;
+  vk::raii::Sampler shadow_sampler_ = nullptr;
+  vk::raii::CommandPool pool_ = nullptr;
+  vk::raii::CommandBuffer commands_ = nullptr;
+  vk::raii::Fence fence_ = nullptr;
+  std::vector<std::unique_ptr<Slot>> slots_;  // oldest first
+  std::vector<std::uint32_t> visible_, casters_;
+};
+
+}  // namespace ensemble

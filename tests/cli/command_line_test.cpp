@@ -1,0 +1,117 @@
+// The program's contract with the scripts that call it: exit codes, messages, streams.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/gltf_file.h"
+#include "tests/cli/run_program.h"
+#include "tests/support/small_people.h"
+
+namespace ensemble {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+
+class CommandLine : public ::testing::Test {
+ protected:
+  CommandLine() {
+    writeFileAtomically(folder_ / "template.glb", writeGlb(testing::tubeTemplate()));
+    writeFileAtomically(folder_ / "tunic.glb", writeGlb(testing::tubeOutfit([](int region, int face) {
+                          return region == 0 || (region == 1 && face % 2 == 0);
+                        })));
+  }
+
+  ProgramResult run(const std::string& arguments) const { return testing::runProgram(arguments, folder_.path()); }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(CommandLine, HelpAndVersion) {
+  const ProgramResult help = run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* command : {"tag", "add", "remove", "report", "inspect", "render", "bench", "people"}) {
+    EXPECT_THAT(help.out, HasSubstr(std::string("  ") + command)) << "not in --help";
+    const ProgramResult own = run(std::string(command) + " --help");
+    EXPECT_EQ(own.exit_code, 0) << command;
+    EXPECT_THAT(own.out, HasSubstr("Example:\n  ensemble " + std::string(command)));
+    for (const char* option : {"--json", "--quiet", "--verbose"}) EXPECT_THAT(own.out, HasSubstr(option)) << command;
+  }
+  const ProgramResult version = run("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, ::testing::StartsWith("ensemble 0.1.0 ("));
+  EXPECT_THAT(version.out, HasSubstr("Vulkan device: "));
+}
+
+TEST_F(CommandLine, WrongUsageIsTwo) {
+  for (const char* arguments : {"", "fly", "tag", "tag template.glb", "report --extrapolate 0 w", "add w",
+                                "tag template.glb -o w --tolerance -1", "tag template.glb -o w -q -v"}) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, ::testing::MatchesRegex("ensemble: [^\n]+\n")) << arguments;
+  }
+  const ProgramResult automatic = run("tag template.glb tunic.glb -o w --auto-occlusion");
+  EXPECT_EQ(automatic.exit_code, 2);
+  EXPECT_EQ(automatic.err,
+            "ensemble: --occlusion: finding hidden faces is not in this version; remove the faces that clothes hide "
+            "before exporting, and use --occlusion authored\n");
+}
+
+TEST_F(CommandLine, InvalidInputIsThree) {
+  const std::vector<std::pair<const char*, const char*>> cases = {
+      {"tag none.glb -o w", "ensemble: none.glb: no such file; check the path\n"},
+      {"report nowhere",
+       "ensemble: nowhere: there is no wardrobe here (no wardrobe.json); give a folder made by `ensemble tag`\n"},
+      {"inspect none.glb", "ensemble: none.glb: no such file; check the path\n"}};
+  for (const auto& [arguments, message] : cases) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 3) << arguments;
+    EXPECT_EQ(result.err, message);
+  }
+}
+
+TEST_F(CommandLine, WhatCantBeDoneIsOne) {
+  // Unlike permissions, these fail for root as well.
+  const ProgramResult no_folder = run("tag template.glb tunic.glb -o tunic.glb/wardrobe");
+  EXPECT_EQ(no_folder.exit_code, 1);
+  EXPECT_EQ(no_folder.err,
+            "ensemble: tunic.glb/wardrobe: the folder can't be made: Not a directory; choose a place that you may write to\n");
+  ASSERT_EQ(run("-q tag template.glb tunic.glb -o w").exit_code, 2) << "-q belongs to the subcommand";
+  ASSERT_EQ(run("tag -q template.glb tunic.glb -o w").exit_code, 0);
+  const ProgramResult full = run("report w --json /dev/full");
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.err, HasSubstr("ensemble: /dev/full: can't be written: "));
+}
+
+TEST_F(CommandLine, TagReportInspectAddRemove) {
+  const ProgramResult tagged = run("tag template.glb tunic.glb -o w");
+  EXPECT_EQ(tagged.exit_code, 0) << tagged.err;
+  EXPECT_EQ(tagged.out, "tunic: legs full, torso partial (32/64), head hidden\nw: 192 faces, 3 regions, 1 outfits\n");
+  EXPECT_EQ(tagged.err, "");
+
+  const ProgramResult report = run("report w --json -");
+  EXPECT_EQ(report.exit_code, 0);
+  const nlohmann::json figures = nlohmann::json::parse(report.out);
+  EXPECT_EQ(figures["schema"], "ensemble.report/1");
+  EXPECT_EQ(figures["techniques"]["tagged"]["faces"], 192 + 80 + 32);
+  EXPECT_EQ(figures["outfits"][0]["dedicated_faces"], 32);
+
+  const nlohmann::json visible = nlohmann::json::parse(run("inspect w --visible tunic --json -").out);
+  ASSERT_EQ(visible["regions"].size(), 3u);
+  EXPECT_EQ(visible["regions"][0]["faces"].size(), 64u);
+  EXPECT_EQ(visible["regions"][1]["visibility"], "partial");
+  EXPECT_EQ(visible["regions"][1]["faces"][1], 2) << "every second face was kept";
+  EXPECT_EQ(visible["regions"][2]["faces"].size(), 0u);
+  EXPECT_EQ(run("inspect w --visible tunik").err,
+            "ensemble: w: the wardrobe has no outfit 'tunik'; did you mean 'tunic'?\n");
+
+  EXPECT_EQ(run("remove w tunic").out, "w: 192 faces, 3 regions, 0 outfits\n");
+  EXPECT_EQ(run("add w tunic.glb -q").out, "");
+  EXPECT_EQ(run("add w tunic.glb").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace ensemble
