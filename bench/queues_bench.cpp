@@ -19,8 +19,8 @@ std::vector<std::vector<SubMeshId>> makeShown() {
   for (auto& sub_meshes : shown) {
     // Choose 12 of 256, ascending, each set alike.
     for (std::size_t s = 0; s < kSubMeshCount; ++s) {
-      const double chance = static_cast<double>(kShownCount - sub_meshes.size()) /
-                            static_cast<double>(kSubMeshCount - s);
+      const double chance =
+          static_cast<double>(kShownCount - sub_meshes.size()) / static_cast<double>(kSubMeshCount - s);
       if (random.uniform(draw++) < chance) sub_meshes.emplace_back(s);
     }
   }
@@ -43,9 +43,9 @@ void BM_RenderQueues(benchmark::State& state) {
     benchmark::ClobberMemory();
   }
   if (queues.entryCount() != visible.size() * kShownCount) state.SkipWithError("wrong number of entries");
-  state.counters["ms_per_1000"] = benchmark::Counter(
-      static_cast<double>(visible.size()) * 1e-6,
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["ms_per_1000"] =
+      benchmark::Counter(static_cast<double>(visible.size()) * 1e-6,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(BM_RenderQueues)
     ->ArgNames({"characters", "visible_of_four"})

@@ -121,7 +121,8 @@ std::array<float, 2> readScaleRange(const YamlValue& value) {
   }
   const std::vector<YamlValue> ends = value.items("");
   if (ends.size() != 2) {
-    value.fail(fmt::format("{} is a list of {}", value.path(), ends.size()), "give [least, most] or one number");
+    value.fail(fmt::format("{} is a list of {}", value.path(), ends.size()),
+               "give [least, most] or one number");
   }
   const std::array<float, 2> range{ends[0].numberFloat(kScaleRange), ends[1].numberFloat(kScaleRange)};
   if (range[0] > range[1]) {
@@ -179,8 +180,7 @@ void readCrowd(const YamlValue& value, SceneCrowd& crowd) {
 }
 
 ScenePerson readPerson(const YamlValue& value) {
-  value.expectKeys(
-      {"wardrobe", "outfit", "clip", "phase", "speed", "position", "heading", "scale", "tint"});
+  value.expectKeys({"wardrobe", "outfit", "clip", "phase", "speed", "position", "heading", "scale", "tint"});
   ScenePerson person;
   person.mark = value.mark();
   if (const auto wardrobe = value.find("wardrobe")) {
@@ -208,7 +208,9 @@ void readCamera(const YamlValue& value, SceneCamera& camera) {
   if (const auto fov = value.find("fov_y")) camera.fov_y = radians(fov->numberFloat(kFovRange));
   if (const auto near_plane = value.find("near")) camera.near_plane = near_plane->numberFloat(kNearRange);
   if (glm::distance(camera.position, camera.target) < 1e-4f) {
-    (target ? *target : position ? *position : value)
+    (target     ? *target
+     : position ? *position
+                : value)
         .fail("the camera's target is where the camera stands", "move one of them");
   }
 }

@@ -24,7 +24,7 @@ struct SceneOutput {
   std::uint32_t frames = 1;
   float fps = 30.0f;
   BackgroundKind background = BackgroundKind::kSky;
-  Vec3 background_color{0.0f};               ///< sRGB, 0 .. 1
+  Vec3 background_color{0.0f};  ///< sRGB, 0 .. 1
 };
 
 enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation };
@@ -32,12 +32,12 @@ enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation };
 /// Where the crowd stands. Distances in metres; `heading` as for a person, in degrees in the file.
 struct ScenePlacement {
   PlacementKind kind = PlacementKind::kGrid;
-  float spacing = 1.2f;             ///< grid, formation: between neighbours; disc: least distance
+  float spacing = 1.2f;  ///< grid, formation: between neighbours; disc: least distance
   Vec3 center{0.0f};
-  std::optional<float> heading;     ///< radians; left out: grid and disc at random, formation 0
-  float heading_spread = 0.0f;      ///< radians: uniform within +- this about heading
-  float jitter = 0.0f;              ///< grid, formation: share of the spacing, 0 .. 0.45
-  std::uint32_t columns = 0;        ///< formation, grid: people in a rank; 0: as square as possible
+  std::optional<float> heading;  ///< radians; left out: grid and disc at random, formation 0
+  float heading_spread = 0.0f;   ///< radians: uniform within +- this about heading
+  float jitter = 0.0f;           ///< grid, formation: share of the spacing, 0 .. 0.45
+  std::uint32_t columns = 0;     ///< formation, grid: people in a rank; 0: as square as possible
 };
 
 struct WeightedName {
@@ -51,8 +51,8 @@ struct SceneCrowd {
   std::uint64_t seed = 1;
   std::vector<WeightedName> wardrobes;  ///< by key; empty: all alike
   ScenePlacement placement;
-  std::vector<WeightedName> outfits;    ///< bare or KEY/NAME; empty: all of each wardrobe alike
-  std::vector<WeightedName> clips;      ///< empty: the first clip of each wardrobe
+  std::vector<WeightedName> outfits;       ///< bare or KEY/NAME; empty: all of each wardrobe alike
+  std::vector<WeightedName> clips;         ///< empty: the first clip of each wardrobe
   std::array<float, 2> scale{1.0f, 1.0f};  ///< uniform between the two
 };
 
@@ -63,7 +63,7 @@ struct ScenePerson {
   float phase = 0.0f;            ///< part of the clip that has run at time 0
   float speed = 1.0f;            ///< factor on the clip's speed
   Vec3 position{0.0f};
-  float heading = 0.0f;          ///< radians about +Y: 0 looks along +Z, 90 degrees along +X
+  float heading = 0.0f;  ///< radians about +Y: 0 looks along +Z, 90 degrees along +X
   float scale = 1.0f;
   std::optional<std::uint32_t> tint;  ///< tint seed; left out: from the crowd's seed and its number
   SourceMark mark;
@@ -96,7 +96,7 @@ struct Scene {
   std::vector<ScenePerson> people;
   SceneCamera camera;
   SceneLight light;
-  bool ground = true;            ///< a ground plane at y = 0
+  bool ground = true;  ///< a ground plane at y = 0
 };
 
 /// `--set key.path=value`: the value is YAML; list entries by number (`people.0.phase=0.5`).

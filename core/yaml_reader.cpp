@@ -153,10 +153,14 @@ void YamlValue::fail(const std::string& what, const std::string& mend) const {
 std::string YamlValue::description() const {
   const std::string name = path_.empty() ? "the file" : path_;
   switch (node_->kind) {
-    case YamlKind::kNull: return name + " has no value";
-    case YamlKind::kSequence: return name + " is a list";
-    case YamlKind::kMap: return name + " is a map";
-    case YamlKind::kScalar: break;
+    case YamlKind::kNull:
+      return name + " has no value";
+    case YamlKind::kSequence:
+      return name + " is a list";
+    case YamlKind::kMap:
+      return name + " is a map";
+    case YamlKind::kScalar:
+      break;
   }
   return name + (node_->is_quoted ? " is the text " : " is ") + quotedName(node_->scalar);
 }
@@ -171,10 +175,11 @@ double YamlValue::number(const NumberRange& range) const {
   std::optional<double> value;
   if (isScalar() && !node_->is_quoted) value = parseDecimal(node_->scalar);
   // In the precision it is kept in: what rounds to an open end is outside.
-  const bool fits = value && (range.is_open_min ? static_cast<float>(*value) > static_cast<float>(range.min)
-                                                : *value >= range.min) &&
-                    (range.is_open_max ? static_cast<float>(*value) < static_cast<float>(range.max)
-                                       : *value <= range.max);
+  const bool fits =
+      value &&
+      (range.is_open_min ? static_cast<float>(*value) > static_cast<float>(range.min)
+                         : *value >= range.min) &&
+      (range.is_open_max ? static_cast<float>(*value) < static_cast<float>(range.max) : *value <= range.max);
   if (!fits) fail(description(), "give " + range.toString());
   return *value;
 }

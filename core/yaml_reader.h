@@ -81,8 +81,8 @@ class YamlValue {
   float numberFloat(const NumberRange& range) const { return static_cast<float>(number(range)); }
   /// Digits only.
   std::uint64_t wholeNumber(std::uint64_t min, std::uint64_t max) const;
-  bool boolean() const;                   ///< true | false
-  std::string text(const char* what) const;  ///< not empty; `what` for the message: "a folder"
+  bool boolean() const;                         ///< true | false
+  std::string text(const char* what) const;     ///< not empty; `what` for the message: "a folder"
   Vec3 vector(const NumberRange& range) const;  ///< [x, y, z]
   /// Index of the word in `words`; an unknown one is an error that names the nearest.
   std::size_t word(std::initializer_list<std::string_view> words) const;

@@ -78,8 +78,7 @@ class TreeBuilder : public YAML::EventHandler {
       refuse(mark, fmt::format("the tag {} is not accepted", quotedName(tag)), "remove it");
     }
     if (++node_count_ > limits_.max_nodes) {
-      refuse(mark, fmt::format("more than {} values", limits_.max_nodes),
-             "keep data per person out of YAML");
+      refuse(mark, fmt::format("more than {} values", limits_.max_nodes), "keep data per person out of YAML");
     }
     YamlNode node;
     node.kind = kind;
@@ -134,13 +133,14 @@ class TreeBuilder : public YAML::EventHandler {
     for (const YamlEntry& entry : map.entries) sorted.push_back(&entry);
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const YamlEntry* a, const YamlEntry* b) { return a->key < b->key; });
-    const auto twin = std::adjacent_find(sorted.begin(), sorted.end(),
-                                         [](const YamlEntry* a, const YamlEntry* b) { return a->key == b->key; });
+    const auto twin =
+        std::adjacent_find(sorted.begin(), sorted.end(),
+                           [](const YamlEntry* a, const YamlEntry* b) { return a->key == b->key; });
     if (twin == sorted.end()) return;
     const YamlEntry &first = **twin, &second = **(twin + 1);
     throw YamlSyntaxError{second.line, second.column,
-                          fmt::format("the key {} is here a second time (first at {}:{})", quotedName(second.key),
-                                      first.line, first.column),
+                          fmt::format("the key {} is here a second time (first at {}:{})",
+                                      quotedName(second.key), first.line, first.column),
                           "remove one of them"};
   }
 

@@ -187,8 +187,8 @@ class CrowdBuilder {
       character.phase = phases.uniformFloat(i);
       character.position = places[i].position;
       character.heading = places[i].heading;
-      character.scale = std::min(
-          crowd.scale[0] + (crowd.scale[1] - crowd.scale[0]) * scales.uniformFloat(i), crowd.scale[1]);
+      character.scale = std::min(crowd.scale[0] + (crowd.scale[1] - crowd.scale[0]) * scales.uniformFloat(i),
+                                 crowd.scale[1]);
       character.tint_seed = tints.bits32(i);
       crowd_.characters.push_back(character);
     }

@@ -26,7 +26,7 @@ struct Character {
   float phase = 0.0f;             ///< part of the clip that has run at time 0, 0 .. 1
   float speed = 1.0f;             ///< factor on the clip's speed
   Vec3 position{0.0f};
-  float heading = 0.0f;           ///< radians about +Y, 0 looks along +Z
+  float heading = 0.0f;  ///< radians about +Y, 0 looks along +Z
   float scale = 1.0f;
   std::uint32_t tint_seed = 0;
 
@@ -34,8 +34,8 @@ struct Character {
 };
 
 struct Crowd {
-  std::vector<Character> characters;           ///< `people` in file order, then the crowd
-  std::vector<WornCombination> combinations;   ///< distinct, by wardrobe, then by items
+  std::vector<Character> characters;          ///< `people` in file order, then the crowd
+  std::vector<WornCombination> combinations;  ///< distinct, by wardrobe, then by items
 };
 
 /// Fills a scene's placements. The same scene and wardrobes give the same crowd, on every machine

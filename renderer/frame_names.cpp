@@ -30,7 +30,8 @@ void checkExtension(const std::string& output, const std::string& extension) {
          "write PNG: name.png, name_%04d.png or a folder dir/");
   }
   if (lower.empty()) {
-    fail(output, "the name has no extension", fmt::format("write {}/ for a folder, or {}.png", output, output));
+    fail(output, "the name has no extension",
+         fmt::format("write {}/ for a folder, or {}.png", output, output));
   }
   fail(output, fmt::format("pictures can't be written as {}", quotedName(extension)),
        "write PNG: name.png, name_%04d.png or a folder dir/");
@@ -61,11 +62,16 @@ std::optional<Conversion> parseConversion(std::string_view text) {
 
 const char* toString(Aov aov) {
   switch (aov) {
-    case Aov::kCharacter: return "character";
-    case Aov::kRegion: return "region";
-    case Aov::kFace: return "face";
-    case Aov::kDepth: return "depth";
-    case Aov::kNormal: return "normal";
+    case Aov::kCharacter:
+      return "character";
+    case Aov::kRegion:
+      return "region";
+    case Aov::kFace:
+      return "face";
+    case Aov::kDepth:
+      return "depth";
+    case Aov::kNormal:
+      return "normal";
   }
   return "";
 }
@@ -155,12 +161,16 @@ std::string FrameNames::stem(std::uint32_t frame) const {
   return is_numbered_ ? fmt::format("{}{:0{}}{}", before_, frame, digits_, after_) : before_;
 }
 
-std::filesystem::path FrameNames::picture(std::uint32_t frame) const { return folder_ / (stem(frame) + ".png"); }
+std::filesystem::path FrameNames::picture(std::uint32_t frame) const {
+  return folder_ / (stem(frame) + ".png");
+}
 
 std::filesystem::path FrameNames::aov(std::uint32_t frame, Aov aov) const {
   return folder_ / fmt::format("{}.{}.exr", stem(frame), toString(aov));
 }
 
-std::filesystem::path FrameNames::ids(std::uint32_t frame) const { return folder_ / (stem(frame) + ".ids.json"); }
+std::filesystem::path FrameNames::ids(std::uint32_t frame) const {
+  return folder_ / (stem(frame) + ".ids.json");
+}
 
 }  // namespace ensemble

@@ -29,8 +29,8 @@ class FrameNames {
   FrameNames(const std::string& output, std::uint32_t frame_count);
 
   std::filesystem::path picture(std::uint32_t frame) const;
-  std::filesystem::path aov(std::uint32_t frame, Aov aov) const;  ///< NAME.character.exr
-  std::filesystem::path ids(std::uint32_t frame) const;           ///< NAME.ids.json
+  std::filesystem::path aov(std::uint32_t frame, Aov aov) const;   ///< NAME.character.exr
+  std::filesystem::path ids(std::uint32_t frame) const;            ///< NAME.ids.json
   const std::filesystem::path& folder() const { return folder_; }  ///< empty: the current one
   /// Makes the folder and those above it, if they are missing. @throws SystemError
   void createFolder() const;

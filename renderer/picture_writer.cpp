@@ -71,8 +71,9 @@ std::vector<std::byte> encodeChannels(std::uint32_t width, std::uint32_t height,
     }
     return stream.take();
   } catch (const std::exception& error) {
-    throw SystemError({"", "", "OpenEXR can't encode " + std::to_string(width) + " x " +
-                                   std::to_string(height) + " pixels: " + error.what(),
+    throw SystemError({"", "",
+                       "OpenEXR can't encode " + std::to_string(width) + " x " + std::to_string(height) +
+                           " pixels: " + error.what(),
                        ""});
   }
 }

@@ -188,9 +188,10 @@ void placeDisc(const ScenePlacement& placement, std::uint64_t seed, std::vector<
     std::vector<DiscSample::Point>& points = sample.points();
     if (points.size() < count) continue;
     // Stable: equal radii stay in the order of growth.
-    std::stable_sort(points.begin(), points.end(), [](const DiscSample::Point& a, const DiscSample::Point& b) {
-      return a.squared_radius < b.squared_radius;
-    });
+    std::stable_sort(points.begin(), points.end(),
+                     [](const DiscSample::Point& a, const DiscSample::Point& b) {
+                       return a.squared_radius < b.squared_radius;
+                     });
     for (std::size_t i = 0; i < count; ++i) {
       places[i].position = {points[i].x, placement.center.y, points[i].z};
     }
@@ -218,9 +219,15 @@ std::vector<Place> placePeople(const ScenePlacement& placement, std::uint32_t co
   std::vector<Place> places(count);
   if (count == 0) return places;
   switch (placement.kind) {
-    case PlacementKind::kGrid: placeGrid(placement, seed, places); break;
-    case PlacementKind::kDisc: placeDisc(placement, seed, places); break;
-    case PlacementKind::kFormation: placeFormation(placement, seed, places); break;
+    case PlacementKind::kGrid:
+      placeGrid(placement, seed, places);
+      break;
+    case PlacementKind::kDisc:
+      placeDisc(placement, seed, places);
+      break;
+    case PlacementKind::kFormation:
+      placeFormation(placement, seed, places);
+      break;
   }
   turn(placement, seed, places);
   return places;

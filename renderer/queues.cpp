@@ -65,7 +65,8 @@ void RenderQueues::count(std::span<const std::uint32_t> combination_of_character
     }
     next = std::uint64_t{character} + 1;
     const std::uint32_t combination = combination_of_character[character];
-    if (combination >= combination_count) [[unlikely]] ENSEMBLE_CHECK(combination < combination_count);
+    if (combination >= combination_count) [[unlikely]]
+      ENSEMBLE_CHECK(combination < combination_count);
     ++combination_counts_[combination];
   }
   visible_ = visible;
@@ -77,7 +78,8 @@ void RenderQueues::countAll(std::span<const std::uint32_t> combination_of_charac
   startCounting(combination_of_character);
   const std::size_t combination_count = combination_counts_.size();
   for (const std::uint32_t combination : combination_of_character) {
-    if (combination >= combination_count) [[unlikely]] ENSEMBLE_CHECK(combination < combination_count);
+    if (combination >= combination_count) [[unlikely]]
+      ENSEMBLE_CHECK(combination < combination_count);
     ++combination_counts_[combination];
   }
   visible_ = {};

@@ -30,8 +30,7 @@ class RenderQueues {
   /// Counts. Both arrays must stay as they are until fill().
   /// @param combination_of_character #characters, each an index into `shown`
   /// @param visible numbers of the characters to draw, ascending, each once
-  void count(std::span<const std::uint32_t> combination_of_character,
-             std::span<const std::uint32_t> visible);
+  void count(std::span<const std::uint32_t> combination_of_character, std::span<const std::uint32_t> visible);
   /// The same with every character visible.
   void countAll(std::span<const std::uint32_t> combination_of_character);
 
@@ -43,7 +42,7 @@ class RenderQueues {
   std::span<const std::uint32_t> build(std::span<const std::uint32_t> combination_of_character,
                                        std::span<const std::uint32_t> visible);
 
-  std::uint32_t entryCount() const { return entry_count_; }  ///< sum of all lengths
+  std::uint32_t entryCount() const { return entry_count_; }            ///< sum of all lengths
   std::span<const std::uint32_t> lengths() const { return lengths_; }  ///< #sub-meshes
   /// Exclusive prefix sums of lengths(), #sub-meshes: where each queue begins.
   std::span<const std::uint32_t> offsets() const { return offsets_; }

@@ -60,7 +60,8 @@ std::uint32_t SceneNames::wardrobe(const std::string& key, const SourceMark& mar
 
 ItemId SceneNames::findItem(std::uint32_t wardrobe, std::string_view name) const {
   const PerItem<Item>& items = wardrobes_[wardrobe].items;
-  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
   return found == items.end() ? ItemId::none() : ItemId(static_cast<std::size_t>(found - items.begin()));
 }
 

@@ -171,9 +171,10 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(errorAfterHead("output:\n  widht: 3\n"),
             "4:3: unknown key 'widht' in output; write 'width' (known: width, height, samples, frames, fps, "
             "background)");
-  EXPECT_EQ(errorAfterHead("people:\n  - {cloth: a}\n"),
-            "4:6: unknown key 'cloth' in people.0; write 'clip' (known: wardrobe, outfit, clip, phase, speed, "
-            "position, heading, scale, tint)");
+  EXPECT_EQ(
+      errorAfterHead("people:\n  - {cloth: a}\n"),
+      "4:6: unknown key 'cloth' in people.0; write 'clip' (known: wardrobe, outfit, clip, phase, speed, "
+      "position, heading, scale, tint)");
   EXPECT_EQ(errorAfterHead("technique: taged\n"),
             "3:12: technique is 'taged'; give 'naive', 'prefitted' or 'tagged'; the nearest is 'tagged'");
 }
@@ -192,8 +193,8 @@ TEST(SceneErrors, KeysOfComingVersionsAreToldSo) {
 
 TEST(SceneErrors, NumbersAreStrict) {
   const std::string mend = "; give a whole number from 0 to 2000000";
-  for (const char* bad : {"010", "0x10", "1.5", "1e3", "-1", "2000001", "many", "1_000", "18446744073709551616",
-                          "+5", ".inf"}) {
+  for (const char* bad : {"010", "0x10", "1.5", "1e3", "-1", "2000001", "many", "1_000",
+                          "18446744073709551616", "+5", ".inf"}) {
     EXPECT_EQ(errorAfterHead(std::string("crowd: {count: ") + bad + "}\n"),
               std::string("3:16: crowd.count is '") + bad + "'" + mend);
   }
@@ -217,14 +218,16 @@ TEST(SceneErrors, RangesAreNamed) {
   EXPECT_EQ(errorAfterHead("output: {height: 16385}\n"),
             "3:18: output.height is '16385'; give a whole number from 1 to 16384");
   EXPECT_EQ(errorAfterHead("output: {samples: 2}\n"), "3:19: output.samples is '2'; give 1 or 4");
-  EXPECT_EQ(errorAfterHead("output: {background: blue}\n"),
-            "3:22: output.background is 'blue'; give sky, transparent or a colour [r, g, b], each from 0 to 1");
+  EXPECT_EQ(
+      errorAfterHead("output: {background: blue}\n"),
+      "3:22: output.background is 'blue'; give sky, transparent or a colour [r, g, b], each from 0 to 1");
   EXPECT_EQ(errorAfterHead("output: {background: [0, 1, 255]}\n"),
             "3:29: output.background.2 is '255'; give a number from 0 to 1");
   EXPECT_EQ(errorAfterHead("camera: {fov_y: 180}\n"),
             "3:17: camera.fov_y is '180'; give a number greater than 0 and less than 180 (degrees)");
-  EXPECT_EQ(errorAfterHead("camera: {fov_y: 179.999999999}\n"),
-            "3:17: camera.fov_y is '179.999999999'; give a number greater than 0 and less than 180 (degrees)");
+  EXPECT_EQ(
+      errorAfterHead("camera: {fov_y: 179.999999999}\n"),
+      "3:17: camera.fov_y is '179.999999999'; give a number greater than 0 and less than 180 (degrees)");
   EXPECT_EQ(errorAfterHead("camera: {fov_y: 0}\n"),
             "3:17: camera.fov_y is '0'; give a number greater than 0 and less than 180 (degrees)");
   EXPECT_EQ(errorAfterHead("camera: {position: [1, 2]}\n"),
@@ -262,9 +265,10 @@ TEST(SceneErrors, ValuesThatMakeNoSense) {
             "3:26: crowd.clips is a list; give a map of names and weights");
   EXPECT_EQ(errorAfterHead("crowd: {count: 1, clips: {walk: -1}}\n"),
             "3:33: crowd.clips.walk is '-1'; give a number from 0 to 1000000");
-  EXPECT_EQ(errorAfterHead("crowd: {count: 1, placement: {kind: disc, jitter: 0.1}}\n"),
-            "3:51: crowd.placement.jitter means nothing for a disc; remove it, or give 'kind: grid' or 'kind: "
-            "formation'");
+  EXPECT_EQ(
+      errorAfterHead("crowd: {count: 1, placement: {kind: disc, jitter: 0.1}}\n"),
+      "3:51: crowd.placement.jitter means nothing for a disc; remove it, or give 'kind: grid' or 'kind: "
+      "formation'");
   EXPECT_EQ(errorAfterHead("crowd: {count: 1, placement: {heading_spread: 5}}\n"),
             "3:47: heading_spread without heading, where headings are random; add a heading");
 }
@@ -332,9 +336,10 @@ TEST(SceneOverrides, SayWhatIsWrongWithThem) {
             "usage: --set output.width=wide: output.width is 'wide'; give a whole number from 1 to 16384");
   EXPECT_EQ(errorOf(text, {{"output.width", ""}}),
             "usage: --set output.width=: output.width has no value; give one, or remove the key");
-  EXPECT_EQ(errorOf(text, {{"people.1.phase", "0"}}),
-            "usage: --set people.1.phase=0: people is a list, in which there is no '1'; give a number from 0 to "
-            "0");
+  EXPECT_EQ(
+      errorOf(text, {{"people.1.phase", "0"}}),
+      "usage: --set people.1.phase=0: people is a list, in which there is no '1'; give a number from 0 to "
+      "0");
   EXPECT_EQ(errorOf(text, {{"people.x", "0"}}),
             "usage: --set people.x=0: people is a list, in which there is no 'x'; give a number from 0 to 0");
   EXPECT_EQ(errorOf(text, {{"technique.a", "0"}}),
@@ -357,8 +362,8 @@ TEST(SceneOverrides, AreSplitAtTheFirstEqualsSign) {
       parseSceneOverride(bad);
       FAIL() << bad;
     } catch (const UsageError& error) {
-      EXPECT_EQ(error.what(), std::string("--set ") + bad +
-                                  ": there is no KEY=VALUE; write --set crowd.count=100");
+      EXPECT_EQ(error.what(),
+                std::string("--set ") + bad + ": there is no KEY=VALUE; write --set crowd.count=100");
     }
   }
 }

@@ -54,9 +54,9 @@ void expectBinomial(int observed, int trials, double probability) {
 }
 
 bool sameCharacter(const Character& a, const Character& b) {
-  return a.wardrobe == b.wardrobe && a.combination == b.combination && a.clip == b.clip && a.phase == b.phase &&
-         a.speed == b.speed && a.position == b.position && a.heading == b.heading && a.scale == b.scale &&
-         a.tint_seed == b.tint_seed;
+  return a.wardrobe == b.wardrobe && a.combination == b.combination && a.clip == b.clip &&
+         a.phase == b.phase && a.speed == b.speed && a.position == b.position && a.heading == b.heading &&
+         a.scale == b.scale && a.tint_seed == b.tint_seed;
 }
 
 TEST(Crowd, HasThePeopleThenTheCrowd) {
@@ -98,7 +98,8 @@ TEST(Crowd, PlacesAPersonByScaleHeadingAndPosition) {
 }
 
 TEST(Crowd, CombinationsAreDistinctSortedAndWorn) {
-  const Crowd crowd = populateCrowd(parse(kTwo + "crowd: {count: 500, seed: 3}\npeople: [{wardrobe: men, outfit: sport01}]\n"), two());
+  const Crowd crowd = populateCrowd(
+      parse(kTwo + "crowd: {count: 500, seed: 3}\npeople: [{wardrobe: men, outfit: sport01}]\n"), two());
   EXPECT_THAT(crowd.combinations,
               testing::ElementsAre(WornCombination{0, {ItemId(0)}}, WornCombination{0, {ItemId(1)}},
                                    WornCombination{1, {ItemId(0)}}, WornCombination{1, {ItemId(1)}}));
@@ -120,7 +121,8 @@ crowd:
   outfits: {women/casual01: 1, dress01: 4, men/casual01: 2, sport01: 0}
   clips: {walk: 0.9, idle: 0.1}
   scale: [0.9, 1.1]
-)"), two());
+)"),
+                                    two());
   std::map<std::string, int> outfits, clips;
   int women = 0;
   double phase = 0.0;
@@ -168,7 +170,8 @@ TEST(Crowd, WearsSinglePiecesOnlyWhereThereIsNoCompleteOutfit) {
   wardrobes[0].items[ItemId(1)].slot = "head";
   wardrobes[0].items[ItemId(2)].slot = "feet";
   const Scene scene = parse(kOne + "crowd: {count: 100}\n");
-  EXPECT_THAT(populateCrowd(scene, wardrobes).combinations, testing::ElementsAre(WornCombination{0, {ItemId(0)}}));
+  EXPECT_THAT(populateCrowd(scene, wardrobes).combinations,
+              testing::ElementsAre(WornCombination{0, {ItemId(0)}}));
   wardrobes[0].items[ItemId(0)].slot = "legs";
   EXPECT_EQ(populateCrowd(scene, wardrobes).combinations.size(), 3u);
   const std::vector<Wardrobe> bare{makeWardrobe({}, {})};
@@ -196,9 +199,10 @@ TEST(Crowd, IsAFunctionOfSceneAndSeed) {
 
 TEST(Crowd, NamedPeopleAndWeightsMoveNobody) {
   const Crowd plain = populateCrowd(parse(kTwo + "crowd: {count: 50, placement: {kind: disc}}\n"), two());
-  const Crowd changed = populateCrowd(parse(kTwo + "crowd: {count: 50, placement: {kind: disc}, outfits: {dress01: 1, "
-                                            "sport01: 1}, clips: {walk: 1}, scale: 1.1}\npeople: [{wardrobe: men}]\n"),
-                                      two());
+  const Crowd changed =
+      populateCrowd(parse(kTwo + "crowd: {count: 50, placement: {kind: disc}, outfits: {dress01: 1, "
+                                 "sport01: 1}, clips: {walk: 1}, scale: 1.1}\npeople: [{wardrobe: men}]\n"),
+                    two());
   for (std::size_t i = 0; i < 50; ++i) {
     EXPECT_EQ(plain.characters[i].position, changed.characters[i + 1].position);
     EXPECT_EQ(plain.characters[i].phase, changed.characters[i + 1].phase);
@@ -218,18 +222,20 @@ TEST(CrowdErrors, NamesThatDoNotExist) {
             "a.yaml: 3:42: the wardrobe 'men' has no outfit 'dress01'; write 'casual01' or 'sport01'");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, wardrobes: {womn: 1}}\n", two()),
             "a.yaml: 3:37: there is no wardrobe 'womn'; write 'women'");
-  EXPECT_EQ(errorOf(kOne + "crowd: {count: 1, wardrobes: {w: 1}}\n", one()),
-            "a.yaml: 3:34: there is no wardrobe 'w': the scene's only one has no key; remove the name, or give "
-            "'wardrobe: {KEY: FOLDER}'");
+  EXPECT_EQ(
+      errorOf(kOne + "crowd: {count: 1, wardrobes: {w: 1}}\n", one()),
+      "a.yaml: 3:34: there is no wardrobe 'w': the scene's only one has no key; remove the name, or give "
+      "'wardrobe: {KEY: FOLDER}'");
   EXPECT_EQ(errorOf(kOne + "people: [{outfit: sprot01}]\n", one()),
             "a.yaml: 3:19: the wardrobe 'w' has no outfit 'sprot01'; write 'sport01'");
   EXPECT_EQ(errorOf(kTwo + "people: [{wardrobe: men, outfit: women/dress01}]\n", two()),
             "a.yaml: 3:34: the wardrobe 'men' has no outfit 'women/dress01'; write 'casual01' or 'sport01'");
   EXPECT_EQ(errorOf(kOne + "people: [{clip: wlak}]\n", one()),
             "a.yaml: 3:17: the wardrobe 'w' has no clip 'wlak'; write 'walk'");
-  EXPECT_EQ(errorOf(kOne + "people: [{wardrobe: w}]\n", one()),
-            "a.yaml: 3:21: there is no wardrobe 'w': the scene's only one has no key; remove the name, or give "
-            "'wardrobe: {KEY: FOLDER}'");
+  EXPECT_EQ(
+      errorOf(kOne + "people: [{wardrobe: w}]\n", one()),
+      "a.yaml: 3:21: there is no wardrobe 'w': the scene's only one has no key; remove the name, or give "
+      "'wardrobe: {KEY: FOLDER}'");
   EXPECT_EQ(errorOf(kTwo + "people: [{outfit: dress01}]\n", two()),
             "a.yaml: 3:10: people.0 names none of 2 wardrobes; add 'wardrobe:' with 'women' or 'men'");
   EXPECT_EQ(errorOf(kOne + "people: [{outfit: a}]\n", {makeWardrobe({}, {})}),
@@ -241,15 +247,20 @@ TEST(CrowdErrors, NamesThatDoNotExist) {
 TEST(CrowdErrors, NamesThatMeanTooMuchOrTooLittle) {
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {casual01: 1}}\n", two()),
             "a.yaml: 3:39: 2 wardrobes have an outfit 'casual01'; write 'women/casual01' or 'men/casual01'");
-  EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1}}\n", two()),
-            "a.yaml: 3:38: crowd.outfits has nothing to wear for the wardrobe 'men'; list an outfit of it with a "
-            "weight above 0, or give the wardrobe the weight 0 in crowd.wardrobes");
-  EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1, sport01: 0}}\n", two()),
-            "a.yaml: 3:38: crowd.outfits has nothing to wear for the wardrobe 'men'; list an outfit of it with a "
-            "weight above 0, or give the wardrobe the weight 0 in crowd.wardrobes");
-  EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1}, wardrobes: {women: 1}}\n", two()), "no error");
-  EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1, women/dress01: 1}, wardrobes: {women: 1}}\n", two()),
-            "a.yaml: 3:56: the outfit 'women/dress01' is here a second time; remove one of them");
+  EXPECT_EQ(
+      errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1}}\n", two()),
+      "a.yaml: 3:38: crowd.outfits has nothing to wear for the wardrobe 'men'; list an outfit of it with a "
+      "weight above 0, or give the wardrobe the weight 0 in crowd.wardrobes");
+  EXPECT_EQ(
+      errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1, sport01: 0}}\n", two()),
+      "a.yaml: 3:38: crowd.outfits has nothing to wear for the wardrobe 'men'; list an outfit of it with a "
+      "weight above 0, or give the wardrobe the weight 0 in crowd.wardrobes");
+  EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1}, wardrobes: {women: 1}}\n", two()),
+            "no error");
+  EXPECT_EQ(
+      errorOf(kTwo + "crowd: {count: 1, outfits: {dress01: 1, women/dress01: 1}, wardrobes: {women: 1}}\n",
+              two()),
+      "a.yaml: 3:56: the outfit 'women/dress01' is here a second time; remove one of them");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, clips: {walk: 1, dance: 1}}\n", two()),
             "a.yaml: 3:43: the wardrobe 'men' has no clip 'dance'; write 'idle' or 'walk'");
   EXPECT_EQ(errorOf(kTwo + "crowd: {count: 1, clips: {dance: 1}, wardrobes: {women: 1, men: 0}}\n", two()),
@@ -264,13 +275,16 @@ TEST(CrowdErrors, AreToldByKeyPathWhereTheNameCameFromSet) {
     FAIL() << "did not throw";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "a.yaml: crowd.outfits.dres01: the wardrobe 'w' has no outfit 'dres01'; write 'casual01', 'casual02' or 'sport01'");
+                 "a.yaml: crowd.outfits.dres01: the wardrobe 'w' has no outfit 'dres01'; write 'casual01', "
+                 "'casual02' or 'sport01'");
   }
 }
 
 TEST(CrowdErrors, ASpacingThatCantBeKept) {
-  EXPECT_EQ(errorOf(kOne + "crowd: {count: 9, placement: {kind: disc, spacing: 0.01, center: [1e6, 0, 0]}}\n", one()),
-            "a.yaml: crowd.placement: positions are too coarse for a spacing of 0.01 this far from the origin; move "
+  EXPECT_EQ(errorOf(kOne + "crowd: {count: 9, placement: {kind: disc, spacing: 0.01, center: [1e6, 0, 0]}}\n",
+                    one()),
+            "a.yaml: crowd.placement: positions are too coarse for a spacing of 0.01 this far from the "
+            "origin; move "
             "crowd.placement.center nearer to [0, 0, 0], or raise the spacing");
 }
 

@@ -26,7 +26,9 @@ using testing_support::readExr;
 /// A folder of its own, gone at the end.
 class PictureWriterTest : public testing::Test {
  protected:
-  PictureWriterTest() : folder_(std::filesystem::path(testing::TempDir()) / ("ensemble_pictures_" + std::to_string(getpid()))) {
+  PictureWriterTest()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                ("ensemble_pictures_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(folder_);
   }
   ~PictureWriterTest() override { std::filesystem::remove_all(folder_); }
@@ -162,20 +164,23 @@ TEST(FrameNames, OfASinglePicture) {
 
 TEST(FrameNames, SayWhatIsWrong) {
   EXPECT_EQ(nameError("a/b.png", 2), "-o a/b.png: 2 frames don't fit one file; write a/b_%04d.png");
-  EXPECT_EQ(nameError("b.exr"),
-            "-o b.exr: colour as .exr is not supported yet; write PNG: name.png, name_%04d.png or a folder dir/");
-  EXPECT_EQ(nameError("b.MP4"),
-            "-o b.MP4: colour as .mp4 is not supported yet; write PNG: name.png, name_%04d.png or a folder dir/");
-  EXPECT_EQ(nameError("b.jpg"),
-            "-o b.jpg: pictures can't be written as '.jpg'; write PNG: name.png, name_%04d.png or a folder dir/");
+  EXPECT_EQ(
+      nameError("b.exr"),
+      "-o b.exr: colour as .exr is not supported yet; write PNG: name.png, name_%04d.png or a folder dir/");
+  EXPECT_EQ(
+      nameError("b.MP4"),
+      "-o b.MP4: colour as .mp4 is not supported yet; write PNG: name.png, name_%04d.png or a folder dir/");
+  EXPECT_EQ(
+      nameError("b.jpg"),
+      "-o b.jpg: pictures can't be written as '.jpg'; write PNG: name.png, name_%04d.png or a folder dir/");
   EXPECT_EQ(nameError("nowhere"),
             "-o nowhere: the name has no extension; write nowhere/ for a folder, or nowhere.png");
   EXPECT_EQ(nameError(""), "-o : the path is empty; write a folder dir/, name_%04d.png or name.png");
   const std::string mend = "; write %04d for the frame's number, %% for a percent sign";
   for (const char* bad : {"a%.png", "a%s.png", "a%4d.png", "a%00d.png", "a%010d.png", "a%0d.png", "a%n.png",
                           "a%04x.png", "a%-4d.png"}) {
-    EXPECT_EQ(nameError(bad),
-              std::string("-o ") + bad + ": a '%' that is followed by neither d nor 0Nd (N from 1 to 9)" + mend);
+    EXPECT_EQ(nameError(bad), std::string("-o ") + bad +
+                                  ": a '%' that is followed by neither d nor 0Nd (N from 1 to 9)" + mend);
   }
   EXPECT_EQ(nameError("%d_%d.png"), "-o %d_%d.png: the frame's number is there twice; write %04d once");
 }
@@ -187,7 +192,8 @@ TEST(Aovs, AreParsed) {
   const std::string known = " (known: character, region, face, depth, normal)";
   EXPECT_EQ(messageOf([] { parseAovs("depth,normals"); }),
             "--aov depth,normals: there is no kind 'normals'; write 'normal'" + known);
-  EXPECT_EQ(messageOf([] { parseAovs("depth,"); }), "--aov depth,: there is no kind ''; write 'face'" + known);
+  EXPECT_EQ(messageOf([] { parseAovs("depth,"); }),
+            "--aov depth,: there is no kind ''; write 'face'" + known);
 }
 
 }  // namespace

@@ -58,8 +58,21 @@ std::vector<std::uint32_t> iota(std::size_t count) {
 // Lister, Laycock and Day, table 1: character 0 wears a dress, character 1 a jumper and a skirt.
 TEST(RenderQueues, GiveThePapersTable1) {
   enum : std::size_t {
-    kHead, kHands, kFeet, kArms, kArmsJumper, kTorso, kTorsoDress, kTorsoSkirt, kLegs, kLegsDress, kLegsSkirt,
-    kDress, kJumper, kSkirt, kCount
+    kHead,
+    kHands,
+    kFeet,
+    kArms,
+    kArmsJumper,
+    kTorso,
+    kTorsoDress,
+    kTorsoSkirt,
+    kLegs,
+    kLegsDress,
+    kLegsSkirt,
+    kDress,
+    kJumper,
+    kSkirt,
+    kCount
   };
   const Shown shown{ids({kHead, kHands, kFeet, kArms, kTorsoDress, kLegsDress, kDress}),
                     ids({kHead, kHands, kFeet, kArmsJumper, kTorsoSkirt, kLegsSkirt, kJumper, kSkirt})};
@@ -141,7 +154,8 @@ TEST(RenderQueues, AllIsTheSameAsEveryNumber) {
   RenderQueues some, all;
   some.setShown(given.shown, given.sub_mesh_count);
   all.setShown(given.shown, given.sub_mesh_count);
-  const auto expected = some.build(given.combination_of_character, iota(given.combination_of_character.size()));
+  const auto expected =
+      some.build(given.combination_of_character, iota(given.combination_of_character.size()));
   all.countAll(given.combination_of_character);
   std::vector<std::uint32_t> entries(all.entryCount());
   all.fill(entries);

@@ -40,7 +40,8 @@ template <class T>
 void addSlice(Imf::FrameBuffer& buffer, const char* name, Imf::PixelType type, std::vector<T>& values,
               const ExrPicture& picture) {
   values.resize(std::size_t{picture.width} * picture.height);
-  buffer.insert(name, Imf::Slice(type, reinterpret_cast<char*>(values.data()), sizeof(T), sizeof(T) * picture.width));
+  buffer.insert(
+      name, Imf::Slice(type, reinterpret_cast<char*>(values.data()), sizeof(T), sizeof(T) * picture.width));
 }
 
 }  // namespace
