@@ -1,1 +1,161 @@
-// placeholder
+#include "assetpipe/make_people.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "assetpipe/people_body.h"
+#include "assetpipe/people_clips.h"
+#include "assetpipe/people_garments.h"
+#include "core/atomic_file.h"
+#include "core/check.h"
+#include "core/clip.h"
+#include "core/gltf_file.h"
+#include "core/input_error.h"
+
+namespace ensemble {
+namespace {
+
+/// The body as one primitive a region, in the order of the regions; hidden faces left out.
+RawMeshNode bodyNode(const FieldMesh& mesh, const std::vector<RawVertex>& vertices,
+                     const std::vector<std::uint8_t>& hidden) {
+  RawMeshNode node;
+  node.name = "body";
+  for (std::uint32_t region = 0; region < kBodyRegionCount; ++region) {
+    RawPrimitive primitive;
+    primitive.material = region;
+    std::vector<std::uint32_t> renumbered(vertices.size(), ~0u);
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      if (mesh.labels[f] != region || hidden[f] != 0) continue;
+      Triangle face = mesh.faces[f];
+      for (std::uint32_t& vertex : face) {
+        if (renumbered[vertex] == ~0u) {
+          renumbered[vertex] = static_cast<std::uint32_t>(primitive.vertices.size());
+          primitive.vertices.push_back(vertices[vertex]);
+        }
+        vertex = renumbered[vertex];
+      }
+      primitive.faces.push_back(face);
+    }
+    if (!primitive.faces.empty()) node.primitives.push_back(std::move(primitive));
+  }
+  return node;
+}
+
+std::vector<RawMaterial> skinMaterials(const Vec3& skin) {
+  std::vector<RawMaterial> materials;
+  for (const char* region : kBodyRegionNames) {
+    RawMaterial material;
+    material.name = region;
+    material.base_color = Vec4(skin, 1.0f);
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+/// Makes the parts of one person that its files share.
+class PersonMaker {
+ public:
+  explicit PersonMaker(const PersonConfig& config)
+      : config_(config), figure_(makeFigure(config.figure)), skeleton_(makeSkeleton(figure_)),
+        mesh_(makeBodyMesh(figure_, config.body_faces)) {
+    const Field body = [this](const Vec3& p) { return figure_.body(p); };
+    for (const Vec3& p : mesh_.positions) {
+      vertices_.push_back(makeVertex(figure_, body, p, bodyBinding(figure_, p)));
+    }
+    nothing_hidden_.assign(mesh_.faces.size(), 0);
+  }
+  PersonMaker(const PersonMaker&) = delete;
+  PersonMaker& operator=(const PersonMaker&) = delete;
+
+  MadePerson run() {
+    MadePerson person;
+    person.name = config_.name;
+    person.body = asset(bodyNode(mesh_, vertices_, nothing_hidden_), {});
+    person.body.clips = {toRawClip(skeleton_, makeWalkClip(figure_, skeleton_)),
+                         toRawClip(skeleton_, makeIdleClip(figure_, skeleton_))};
+    person.walk_speed = walkSpeed(figure_);
+    for (const OutfitPlan& plan : outfitPlans(config_.figure.sex)) {
+      const bool is_wanted =
+          config_.outfits.empty() ||
+          std::find(config_.outfits.begin(), config_.outfits.end(), plan.name) != config_.outfits.end();
+      if (is_wanted) person.outfits.push_back(dress(plan));
+    }
+    return person;
+  }
+
+ private:
+  MadeOutfit dress(const OutfitPlan& plan) {
+    std::vector<const MadeGarment*> garments;
+    for (const std::string& name : plan.garments) garments.push_back(&garment(name));
+    const std::vector<std::uint8_t> hidden = findCoveredFaces(mesh_, garments);
+    MadeOutfit outfit;
+    outfit.name = plan.name;
+    outfit.fitted = asset(bodyNode(mesh_, vertices_, hidden), garments);
+    outfit.unfitted = asset(bodyNode(mesh_, vertices_, nothing_hidden_), garments);
+    return outfit;
+  }
+
+  /// Each garment is made once and shared by all outfits that have it.
+  const MadeGarment& garment(const std::string& name) {
+    const auto found = garments_.find(name);
+    if (found != garments_.end()) return *found->second;
+    auto made = std::make_unique<MadeGarment>(
+        makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, name)));
+    return *garments_.emplace(name, std::move(made)).first->second;
+  }
+
+  RawAsset asset(RawMeshNode body, const std::vector<const MadeGarment*>& garments) const {
+    RawAsset asset;
+    asset.copyright = "Made by ensemble people";
+    asset.skeleton = skeleton_;
+    asset.materials = skinMaterials(config_.colors.skin);
+    asset.meshes.push_back(std::move(body));
+    for (const MadeGarment* garment : garments) {
+      RawMeshNode node = garment->node;
+      for (RawPrimitive& primitive : node.primitives) {
+        primitive.material += static_cast<std::uint32_t>(asset.materials.size());
+      }
+      asset.materials.insert(asset.materials.end(), garment->materials.begin(), garment->materials.end());
+      asset.meshes.push_back(std::move(node));
+    }
+    return asset;
+  }
+
+  const PersonConfig& config_;
+  const Figure figure_;
+  const RawSkeleton skeleton_;
+  const FieldMesh mesh_;
+  std::vector<RawVertex> vertices_;
+  std::vector<std::uint8_t> nothing_hidden_;
+  std::map<std::string, std::unique_ptr<MadeGarment>> garments_;
+};
+
+}  // namespace
+
+MadePerson makePerson(const PersonConfig& config) { return PersonMaker(config).run(); }
+
+std::vector<std::filesystem::path> writePerson(const MadePerson& person, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  const std::filesystem::path own = folder / person.name;
+  for (const char* part : {"outfits", "unfitted"}) {
+    std::error_code error;
+    std::filesystem::create_directories(own / part, error);
+    if (error) throw SystemError({(own / part).string(), "", "the folder can't be made: " + error.message(), ""});
+  }
+  const auto write = [&](const std::filesystem::path& file, const RawAsset& asset) {
+    writeFileAtomically(file, writeGlb(asset));
+    files.push_back(file);
+  };
+  write(own / "template.glb", person.body);
+  for (const MadeOutfit& outfit : person.outfits) {
+    write(own / "outfits" / (outfit.name + ".glb"), outfit.fitted);
+    write(own / "unfitted" / (outfit.name + ".glb"), outfit.unfitted);
+  }
+  return files;
+}
+
+}  // namespace ensemble

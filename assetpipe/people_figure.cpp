@@ -56,6 +56,10 @@ class Builder {
     figure_.scale = options.height / m_.height;
     trunk_ = 1.0f + (options.build > 0.0f ? 0.16f : 0.08f) * options.build;
     limb_ = m_.limb * (1.0f + 0.09f * options.build);
+    figure_.trunk = trunk_;
+    figure_.limb = limb_;
+    figure_.head_center = s(fromHead(0.0f, 0.0f, 0.0f));
+    figure_.head_size = figure_.scale * m_.head_size;
   }
 
   Figure run() {

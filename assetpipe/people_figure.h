@@ -41,6 +41,9 @@ struct FigureOptions {
 struct Figure {
   FigureOptions options;
   float scale = 1.0f;                             ///< of this person to the reference figure
+  float trunk = 1.0f, limb = 1.0f;                ///< thickness of trunk and limbs to the reference man's
+  Vec3 head_center{0.0f};                         ///< between the ears, metres
+  float head_size = 1.0f;                         ///< of this head to the reference man's
   std::array<Vec3, kBodyJointCount> joints{};     ///< metres, at rest
   Vec3 head_top{0.0f}, hand_end{0.0f}, toe_end{0.0f};  ///< where the last bones end (left)
   SolidGroup head_solids, torso_solids, arm_solids, hand_solids, leg_solids, foot_solids;

@@ -43,8 +43,8 @@ void BM_RenderQueues(benchmark::State& state) {
     benchmark::ClobberMemory();
   }
   if (queues.entryCount() != visible.size() * kShownCount) state.SkipWithError("wrong number of entries");
-  state.counters["ms_per_1000"] =
-      benchmark::Counter(static_cast<double>(visible.size()) * 1e-6,
+  state.counters["per_1000_people"] =
+      benchmark::Counter(static_cast<double>(visible.size()) * 1e-3,
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(BM_RenderQueues)

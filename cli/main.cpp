@@ -24,7 +24,8 @@ int run(int argc, char** argv) {
   CLI::App app("Dresses one template person in many outfits and renders crowds of them.", "ensemble");
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return versionText(); }, "Print version, build type and Vulkan device");
-  for (const auto add : {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand}) {
+  for (const auto add : {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand,
+                         addRenderCommand}) {
     add(app);
   }
   try {

@@ -34,7 +34,8 @@ Vec4 interpolateLinear(ChannelPath path, const Vec4& a, const Vec4& b, float s) 
 }
 
 Vec4 valueOfKey(const RawChannel& channel, std::size_t key) {
-  return channel.interpolation == Interpolation::kCubicSpline ? channel.values[3 * key + 1] : channel.values[key];
+  return channel.interpolation == Interpolation::kCubicSpline ? channel.values[3 * key + 1]
+                                                              : channel.values[key];
 }
 
 // A channel's value at a time; before its first and after its last key it stands still.
@@ -51,9 +52,15 @@ Vec4 evaluate(const RawChannel& channel, float time) {
 
 void applyValue(ChannelPath path, const Vec4& value, Transform& transform) {
   switch (path) {
-    case ChannelPath::kTranslation: transform.translation = Vec3(value); return;
-    case ChannelPath::kRotation: transform.rotation = toQuat(value); return;
-    case ChannelPath::kScale: transform.scale = Vec3(value); return;
+    case ChannelPath::kTranslation:
+      transform.translation = Vec3(value);
+      return;
+    case ChannelPath::kRotation:
+      transform.rotation = toQuat(value);
+      return;
+    case ChannelPath::kScale:
+      transform.scale = Vec3(value);
+      return;
   }
 }
 
@@ -109,15 +116,15 @@ Sampling chooseSampling(const RawClip& clip) {
   sampling.seconds = end - sampling.start;
   if (!(sampling.seconds > 0.0)) return sampling;
   // A curve between few keys is not a straight line, so cubic channels are always resampled.
-  const bool straight = std::none_of(clip.channels.begin(), clip.channels.end(), [](const RawChannel& channel) {
-    return channel.interpolation == Interpolation::kCubicSpline;
-  });
+  const bool straight = std::none_of(
+      clip.channels.begin(), clip.channels.end(),
+      [](const RawChannel& channel) { return channel.interpolation == Interpolation::kCubicSpline; });
   if (isEqualSpacing(*densest, sampling)) {
     sampling.key_count = static_cast<std::uint32_t>(densest->size());
     const double rate = (sampling.key_count - 1) / sampling.seconds;
-    const bool all_fall_on = std::all_of(clip.channels.begin(), clip.channels.end(), [&](const RawChannel& c) {
-      return fallsOnSamples(c.times, sampling);
-    });
+    const bool all_fall_on =
+        std::all_of(clip.channels.begin(), clip.channels.end(),
+                    [&](const RawChannel& c) { return fallsOnSamples(c.times, sampling); });
     if (all_fall_on && (straight || rate >= 0.98 * kFallbackRate)) return sampling;
   }
   sampling.key_count = static_cast<std::uint32_t>(std::ceil(sampling.seconds * kFallbackRate - 1e-3)) + 1;
@@ -165,8 +172,8 @@ Clip sampleClip(const RawSkeleton& skeleton, const RawClip& raw) {
     const double noise = clip.key_count < 2 ? 0.0 : kEqualSpacing * sampling.seconds / (clip.key_count - 1);
     for (const RawChannel& channel : raw.channels) {
       float at = static_cast<float>(time);
-      const auto near = std::lower_bound(channel.times.begin(), channel.times.end(),
-                                         static_cast<float>(time - noise));
+      const auto near =
+          std::lower_bound(channel.times.begin(), channel.times.end(), static_cast<float>(time - noise));
       if (near != channel.times.end() && std::abs(static_cast<double>(*near) - time) <= noise) at = *near;
       applyValue(channel.path, evaluate(channel, at), pose[channel.bone]);
     }
@@ -201,7 +208,8 @@ RawClip toRawClip(const RawSkeleton& skeleton, const Clip& clip) {
   return raw;
 }
 
-void globalPose(const RawSkeleton& skeleton, std::span<const Transform> local, std::span<Mat4> world_from_bone) {
+void globalPose(const RawSkeleton& skeleton, std::span<const Transform> local,
+                std::span<Mat4> world_from_bone) {
   ENSEMBLE_CHECK(local.size() == skeleton.bones.size());
   ENSEMBLE_CHECK(world_from_bone.size() == skeleton.bones.size());
   for (std::size_t bone = 0; bone < local.size(); ++bone) {

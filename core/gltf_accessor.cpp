@@ -71,12 +71,18 @@ T load(const std::byte* bytes) {
 
 double loadNumber(const std::byte* bytes, ComponentType type) {
   switch (type) {
-    case ComponentType::kInt8: return load<std::int8_t>(bytes);
-    case ComponentType::kUint8: return load<std::uint8_t>(bytes);
-    case ComponentType::kInt16: return load<std::int16_t>(bytes);
-    case ComponentType::kUint16: return load<std::uint16_t>(bytes);
-    case ComponentType::kUint32: return load<std::uint32_t>(bytes);
-    case ComponentType::kFloat: return static_cast<double>(load<float>(bytes));
+    case ComponentType::kInt8:
+      return load<std::int8_t>(bytes);
+    case ComponentType::kUint8:
+      return load<std::uint8_t>(bytes);
+    case ComponentType::kInt16:
+      return load<std::int16_t>(bytes);
+    case ComponentType::kUint16:
+      return load<std::uint16_t>(bytes);
+    case ComponentType::kUint32:
+      return load<std::uint32_t>(bytes);
+    case ComponentType::kFloat:
+      return static_cast<double>(load<float>(bytes));
   }
   return 0.0;
 }
@@ -102,6 +108,11 @@ Sparse findSparse(const GltfDocument& document, const JsonRef& sparse, const Glt
   const std::uint64_t size = byteSize(accessor.component) * accessor.components;
   result.values =
       findElements(document, sparse.require("values"), {result.count, size, byteSize(accessor.component)});
+  return result;
+}
+
+void checkSparseOrder(const JsonRef& sparse, const Sparse& result, const GltfAccessor& accessor) {
+  const JsonRef indices = sparse.require("indices");
   std::uint64_t next = 0;
   for (std::uint64_t i = 0; i < result.count; ++i) {
     const auto index = static_cast<std::uint64_t>(loadNumber(result.indices.at(i), result.index_type));
@@ -110,7 +121,6 @@ Sparse findSparse(const GltfDocument& document, const JsonRef& sparse, const Glt
     }
     next = index + 1;
   }
-  return result;
 }
 
 GltfAccessor describe(const JsonRef& json) {
@@ -141,6 +151,7 @@ void visitElements(const GltfDocument& document, const JsonRef& json, const Gltf
   }
   if (const auto sparse_json = json.find("sparse")) {
     const Sparse sparse = findSparse(document, *sparse_json, accessor);
+    checkSparseOrder(*sparse_json, sparse, accessor);
     for (std::uint64_t i = 0; i < sparse.count; ++i) {
       visit(static_cast<std::uint64_t>(loadNumber(sparse.indices.at(i), sparse.index_type)),
             sparse.values.at(i));
@@ -153,23 +164,32 @@ void visitElements(const GltfDocument& document, const JsonRef& json, const Gltf
 std::uint32_t byteSize(ComponentType type) {
   switch (type) {
     case ComponentType::kInt8:
-    case ComponentType::kUint8: return 1;
+    case ComponentType::kUint8:
+      return 1;
     case ComponentType::kInt16:
-    case ComponentType::kUint16: return 2;
+    case ComponentType::kUint16:
+      return 2;
     case ComponentType::kUint32:
-    case ComponentType::kFloat: return 4;
+    case ComponentType::kFloat:
+      return 4;
   }
   return 4;
 }
 
 double fractionOf(double value, ComponentType type) {
   switch (type) {
-    case ComponentType::kInt8: return std::max(value / 127.0, -1.0);
-    case ComponentType::kUint8: return value / 255.0;
-    case ComponentType::kInt16: return std::max(value / 32767.0, -1.0);
-    case ComponentType::kUint16: return value / 65535.0;
-    case ComponentType::kUint32: return value / 4294967295.0;
-    case ComponentType::kFloat: break;
+    case ComponentType::kInt8:
+      return std::max(value / 127.0, -1.0);
+    case ComponentType::kUint8:
+      return value / 255.0;
+    case ComponentType::kInt16:
+      return std::max(value / 32767.0, -1.0);
+    case ComponentType::kUint16:
+      return value / 65535.0;
+    case ComponentType::kUint32:
+      return value / 4294967295.0;
+    case ComponentType::kFloat:
+      break;
   }
   return value;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -32,8 +33,12 @@ class ClipReader {
  public:
   ClipReader(const GltfDocument& document, const GltfSkeleton& skeleton, const GltfNodes& tree,
              DroppedList& dropped)
-      : document_(document), skeleton_(skeleton), tree_(tree), dropped_(dropped),
-        keys_left_(document.options().max_keys) {}
+      : document_(document),
+        skeleton_(skeleton),
+        tree_(tree),
+        dropped_(dropped),
+        keys_left_(document.options().max_keys),
+        poses_left_(document.options().max_poses) {}
 
   RawClip read(std::size_t index) {
     const JsonRef animation = document_.item("animations", index);
@@ -50,10 +55,28 @@ class ClipReader {
       }
       clip.channels.push_back(*channel);
     }
+    checkLength(animation, clip);
     return clip;
   }
 
  private:
+  // A time of 1e30 s in a file of 1 kB must not become as many key frames.
+  void checkLength(const JsonRef& animation, const RawClip& clip) {
+    double keys = 0.0, end = 0.0;
+    for (const RawChannel& channel : clip.channels) {
+      keys = std::max(keys, static_cast<double>(channel.times.size()));
+      end = std::max(end, static_cast<double>(channel.times.back()));
+    }
+    const double poses =
+        std::max(keys, 30.0 * end + 2.0) * static_cast<double>(skeleton_.skeleton.bones.size());
+    if (poses > static_cast<double>(poses_left_)) {
+      animation.fail(
+          fmt::format("the clip's {} s for {} bones are more than fit", end, skeleton_.skeleton.bones.size()),
+          "shorten the clip");
+    }
+    poses_left_ -= static_cast<std::uint64_t>(poses);
+  }
+
   std::optional<RawChannel> readChannel(const JsonRef& animation, const JsonRef& json,
                                         const std::string& clip_name) {
     const JsonRef target = json.require("target");
@@ -124,7 +147,7 @@ class ClipReader {
   const GltfSkeleton& skeleton_;
   const GltfNodes& tree_;
   DroppedList& dropped_;
-  std::uint64_t keys_left_;
+  std::uint64_t keys_left_, poses_left_;
 };
 
 }  // namespace

@@ -148,6 +148,16 @@ std::vector<std::byte> GltfDocument::loadUri(const JsonRef& uri) const {
   return *std::move(bytes);
 }
 
+std::vector<std::byte> GltfDocument::copyView(const JsonRef& owner, std::uint32_t index) const {
+  const auto bytes = views_[index].bytes;
+  if (bytes.size() > options_.max_file_bytes - loaded_bytes_) {
+    owner.fail(fmt::format("the images add up to more than {} bytes", options_.max_file_bytes),
+               "split the file");
+  }
+  loaded_bytes_ += bytes.size();
+  return {bytes.begin(), bytes.end()};
+}
+
 void GltfDocument::loadBuffers(std::span<const std::byte> bin) {
   const std::size_t buffer_count = count("buffers");
   for (std::size_t i = 0; i < buffer_count; ++i) {
@@ -177,8 +187,8 @@ void GltfDocument::checkViews() {
     const std::uint64_t offset = view.wholeNumberOr("byteOffset", 0, 1ull << 53);
     const std::uint64_t length = view.require("byteLength").wholeNumber(1ull << 53);
     if (offset > buffer.size() || length > buffer.size() - offset) {
-      view.fail(fmt::format("bytes {} to {} reach beyond the buffer's {}", offset, offset + length,
-                            buffer.size()));
+      view.fail(
+          fmt::format("bytes {} to {} reach beyond the buffer's {}", offset, offset + length, buffer.size()));
     }
     const std::uint64_t stride = view.wholeNumberOr("byteStride", 0, 252);
     if (view.has("byteStride") && (stride < 4 || stride % 4 != 0)) {

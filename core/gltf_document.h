@@ -1,5 +1,11 @@
 // A glTF document as container: JSON, buffers and buffer views, all ranges checked. Private to
 // gltf_file.h's implementation.
+//
+// Why not tinygltf: it reads an image's bytes from unchecked ranges before anyone can look, refuses
+// Draco primitives unless it decompresses them itself (without limits), takes fractional indices for
+// missing ones, and names no place in its errors. All that would have to be checked on the JSON
+// before; what is left is reading the JSON. tinygltf serves as the oracle in
+// tests/core/gltf_oracle_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -49,6 +55,9 @@ class GltfDocument {
                                          std::string_view array) const;
 
   const GltfBufferView& view(std::uint32_t index) const { return views_[index]; }
+
+  /// A copy of a view's bytes, counted like what URIs name, since many images may share a view.
+  std::vector<std::byte> copyView(const JsonRef& owner, std::uint32_t index) const;
 
   /// The bytes behind a `uri` (data or file). The sum of all that a document loads is limited.
   std::vector<std::byte> loadUri(const JsonRef& uri) const;

@@ -93,7 +93,8 @@ std::vector<T> readAttribute(const draco::Mesh& mesh, const JsonRef& unique_id, 
   for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
     const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(point));
     if (value.value() >= attribute.size() ||
-        !attribute.ConvertValue<T>(value, static_cast<std::int8_t>(components), &result[point * components])) {
+        !attribute.ConvertValue<T>(value, static_cast<std::int8_t>(components),
+                                   &result[point * components])) {
       unique_id.fail(fmt::format("the Draco attribute has no value for vertex {}", point));
     }
   }
@@ -133,10 +134,12 @@ std::map<std::string, std::uint32_t> addAttributes(const RawPrimitive& primitive
     return std::pair(name, addAttribute<float>(mesh, type, draco::DT_FLOAT32, values));
   };
   std::map<std::string, std::uint32_t> ids;
-  ids.insert(floats("POSITION", Attribute::POSITION,
-                    gather<float>(primitive, [](const RawVertex& v, auto& out) { appendVec3(v.position, out); })));
-  ids.insert(floats("NORMAL", Attribute::NORMAL,
-                    gather<float>(primitive, [](const RawVertex& v, auto& out) { appendVec3(v.normal, out); })));
+  ids.insert(
+      floats("POSITION", Attribute::POSITION,
+             gather<float>(primitive, [](const RawVertex& v, auto& out) { appendVec3(v.position, out); })));
+  ids.insert(floats("NORMAL", Attribute::NORMAL, gather<float>(primitive, [](const RawVertex& v, auto& out) {
+                      appendVec3(v.normal, out);
+                    })));
   if (layout.uv) {
     ids.insert(floats("TEXCOORD_0", Attribute::TEX_COORD,
                       gather<float>(primitive, [](const RawVertex& v, auto& out) {
@@ -153,9 +156,10 @@ std::map<std::string, std::uint32_t> addAttributes(const RawPrimitive& primitive
       const std::vector<std::uint8_t> narrow(joints.begin(), joints.end());
       ids["JOINTS_0"] = addAttribute<std::uint8_t>(mesh, Attribute::GENERIC, draco::DT_UINT8, narrow);
     }
-    ids.insert(floats("WEIGHTS_0", Attribute::GENERIC, gather<float>(primitive, [](const RawVertex& v, auto& out) {
-                        out.insert(out.end(), v.skin.weights.begin(), v.skin.weights.end());
-                      })));
+    ids.insert(
+        floats("WEIGHTS_0", Attribute::GENERIC, gather<float>(primitive, [](const RawVertex& v, auto& out) {
+                 out.insert(out.end(), v.skin.weights.begin(), v.skin.weights.end());
+               })));
   }
   if (layout.template_vertices) {
     const std::vector<float> numbers(primitive.template_vertices.begin(), primitive.template_vertices.end());
@@ -270,7 +274,8 @@ DracoData encodeDraco(const RawPrimitive& primitive, const PrimitiveLayout& layo
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(mesh, &buffer);
   if (!status.ok()) {
-    throw SystemError({"", "", fmt::format("Draco can't compress the mesh ({})", status.error_msg_string()), ""});
+    throw SystemError(
+        {"", "", fmt::format("Draco can't compress the mesh ({})", status.error_msg_string()), ""});
   }
   data.bytes.resize(buffer.size());
   std::memcpy(data.bytes.data(), buffer.data(), buffer.size());

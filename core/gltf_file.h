@@ -28,7 +28,8 @@ struct GltfReadOptions {
   std::uint64_t max_faces = 1ull << 25;
   std::uint32_t max_nodes = 1u << 16;
   std::uint32_t max_joints = 1u << 12;
-  std::uint64_t max_keys = 1ull << 22;  ///< over all channels of all clips
+  std::uint64_t max_keys = 1ull << 22;   ///< over all channels of all clips
+  std::uint64_t max_poses = 1ull << 25;  ///< bones x keys of all clips, sampled (clip.h) at 30 Hz at least
   std::uint64_t max_image_pixels = 1ull << 26;
 };
 

@@ -41,9 +41,10 @@ std::string describe(const nlohmann::json& value) {
 
 nlohmann::json parseGltfJson(std::string_view text, const std::string& file, const GltfReadOptions& options) {
   if (text.size() > options.max_json_bytes) {
-    throw InputError({file, "", fmt::format("{} bytes of JSON are more than the {} allowed", text.size(),
-                                            options.max_json_bytes),
-                      "split the file"});
+    throw InputError(
+        {file, "",
+         fmt::format("{} bytes of JSON are more than the {} allowed", text.size(), options.max_json_bytes),
+         "split the file"});
   }
   checkDepth(text, file, options.max_json_depth);
   try {
@@ -149,7 +150,9 @@ std::uint64_t JsonRef::wholeNumberOr(std::string_view key, std::uint64_t fallbac
 }
 
 void JsonRef::fail(const std::string& what, const std::string& mend) const {
-  throw InputError({*file_, pointer_, what, mend});
+  constexpr std::size_t kMostShown = 400;  // a hostile name may have millions of characters
+  const bool fits = what.size() <= kMostShown;
+  throw InputError({*file_, pointer_, fits ? what : what.substr(0, kMostShown) + " ...", mend});
 }
 
 }  // namespace ensemble

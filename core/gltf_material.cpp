@@ -27,7 +27,8 @@ Mat3 readUvTransform(const JsonRef& transform) {
   const auto angle = static_cast<float>(transform.numberOr("rotation", 0.0));
   const float c = std::cos(angle), s = std::sin(angle);
   // Translation * rotation * scale, column by column.
-  return Mat3(Vec3(c * scale.x, -s * scale.x, 0.0f), Vec3(s * scale.y, c * scale.y, 0.0f), Vec3(offset, 1.0f));
+  return Mat3(Vec3(c * scale.x, -s * scale.x, 0.0f), Vec3(s * scale.y, c * scale.y, 0.0f),
+              Vec3(offset, 1.0f));
 }
 
 void readBaseTexture(const GltfDocument& document, const JsonRef& info, GltfMaterial& result,
@@ -35,8 +36,8 @@ void readBaseTexture(const GltfDocument& document, const JsonRef& info, GltfMate
   const JsonRef texture = document.item("textures", document.index(info.require("index"), "textures"));
   result.image = document.findIndex(texture, "source", "images");
   if (!result.image) {
-    dropped.add(fmt::format("the texture of material '{}', which is neither PNG nor JPEG",
-                            result.material.name));
+    dropped.add(
+        fmt::format("the texture of material '{}', which is neither PNG nor JPEG", result.material.name));
     return;
   }
   if (const auto sampler_index = document.findIndex(texture, "sampler", "samplers")) {
@@ -113,8 +114,7 @@ RawImage readImage(const GltfDocument& document, std::uint32_t index) {
   RawImage image;
   image.name = json.stringOr("name", "");
   if (const auto view = document.findIndex(json, "bufferView", "bufferViews")) {
-    const auto bytes = document.view(*view).bytes;
-    image.bytes.assign(bytes.begin(), bytes.end());
+    image.bytes = document.copyView(json, *view);
   } else {
     image.bytes = document.loadUri(json.require("uri"));
   }

@@ -13,10 +13,10 @@ namespace ensemble {
 
 /// A material and how its texture finds its coordinates.
 struct GltfMaterial {
-  RawMaterial material;       ///< without its image
+  RawMaterial material;                ///< without its image
   std::optional<std::uint32_t> image;  ///< index into the document's images
-  std::uint32_t uv_set = 0;   ///< TEXCOORD_n
-  Mat3 uv_transform{1.0f};    ///< KHR_texture_transform
+  std::uint32_t uv_set = 0;            ///< TEXCOORD_n
+  Mat3 uv_transform{1.0f};             ///< KHR_texture_transform
 };
 
 /// Collects what is read but can't be used, each once, in order.

@@ -13,6 +13,8 @@
 namespace ensemble {
 namespace {
 
+constexpr int kMaxInfluenceSets = 16;  // JOINTS_0 to JOINTS_15
+
 enum class Topology { kTriangles = 4, kStrip = 5, kFan = 6 };
 
 /// Where a primitive's numbers come from: accessors, or Draco data for those that it compresses.
@@ -62,8 +64,8 @@ class PrimitiveSource {
     }
     for (std::size_t i = 0; i < result.size(); ++i) {
       if (result[i] >= vertex_count_) {
-        primitive_.require("indices").fail(
-            fmt::format("index {} at {} is not below the number of vertices, {}", result[i], i, vertex_count_));
+        primitive_.require("indices").fail(fmt::format(
+            "index {} at {} is not below the number of vertices, {}", result[i], i, vertex_count_));
       }
     }
     return result;
@@ -151,8 +153,8 @@ void readTemplateVertices(const PrimitiveSource& source, RawPrimitive& primitive
   if (!source.has("_TEMPLATE_VERTEX")) return;
   for (const float number : source.floats("_TEMPLATE_VERTEX", 1)) {
     if (number < 0.0f || number > 16777216.0f || std::floor(number) != number) {
-      source.attribute("_TEMPLATE_VERTEX").fail(fmt::format("{} is no vertex number", number),
-                                                "tag the outfit again");
+      source.attribute("_TEMPLATE_VERTEX")
+          .fail(fmt::format("{} is no vertex number", number), "tag the outfit again");
     }
     primitive.template_vertices.push_back(static_cast<std::uint32_t>(number));
   }
@@ -172,6 +174,8 @@ Influences readInfluences(const PrimitiveSource& source, const JsonRef& primitiv
       primitive.fail(fmt::format("the primitive has only one of {} and {}", joints, weights));
     }
     if (!source.has(joints)) break;
+    if (set == kMaxInfluenceSets)
+      primitive.fail("a vertex has more than 64 influences", "limit them to four");
     result.joints.push_back(source.unsignedIntegers(joints, 4));
     result.weights.push_back(source.floats(weights, 4));
   }
@@ -288,9 +292,10 @@ RawMeshNode MeshReading::readMeshNode(std::uint32_t node_index) {
     if (!primitive.faces.empty()) mesh.primitives.push_back(std::move(primitive));
   }
   if (reduced > 0) {
-    warnings.push_back(fmt::format("node '{}': {} vertices have more than four influences; the four largest "
-                                   "are kept",
-                                   mesh.name, reduced));
+    warnings.push_back(
+        fmt::format("node '{}': {} vertices have more than four influences; the four largest "
+                    "are kept",
+                    mesh.name, reduced));
   }
   return mesh;
 }

@@ -84,7 +84,8 @@ void placeNodes(const GltfDocument& document, GltfNodes& tree) {
     GltfNode& node = nodes[index];
     reached[index] = true;
     if (node.parent >= 0) {
-      node.world_from_node = nodes[static_cast<std::size_t>(node.parent)].world_from_node * node.world_from_node;
+      node.world_from_node =
+          nodes[static_cast<std::size_t>(node.parent)].world_from_node * node.world_from_node;
     }
     for (int column = 0; column < 4; ++column) {
       if (!std::isfinite(glm::dot(node.world_from_node[column], glm::dvec4(1.0)))) {
@@ -129,7 +130,8 @@ glm::dmat4 toMatrixDouble(const Transform& transform) {
   const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(transform.rotation));
   const glm::dvec3 scale(transform.scale);
   return glm::dmat4(glm::dvec4(rotation[0] * scale.x, 0.0), glm::dvec4(rotation[1] * scale.y, 0.0),
-                    glm::dvec4(rotation[2] * scale.z, 0.0), glm::dvec4(glm::dvec3(transform.translation), 1.0));
+                    glm::dvec4(rotation[2] * scale.z, 0.0),
+                    glm::dvec4(glm::dvec3(transform.translation), 1.0));
 }
 
 GltfNodes readNodes(const GltfDocument& document) {

@@ -13,21 +13,21 @@
 namespace ensemble {
 
 struct GltfNode {
-  std::string name;         ///< empty where the file gives none
+  std::string name;  ///< empty where the file gives none
   std::int32_t parent = -1;
   std::vector<std::uint32_t> children;
-  Transform local;          ///< what animations replace
-  bool has_shear = false;   ///< its matrix is more than `local` can say
+  Transform local;         ///< what animations replace
+  bool has_shear = false;  ///< its matrix is more than `local` can say
   glm::dmat4 world_from_node{1.0};
   std::optional<std::uint32_t> mesh, skin;
-  bool in_scene = false;    ///< below a root of the default scene
+  bool in_scene = false;  ///< below a root of the default scene
 
   /// The name, else "node N".
   std::string label(std::size_t index) const;
 };
 
 struct GltfNodes {
-  std::vector<GltfNode> nodes;         ///< as in the file
+  std::vector<GltfNode> nodes;               ///< as in the file
   std::vector<std::uint32_t> parents_first;  ///< every node, after its parent
 };
 

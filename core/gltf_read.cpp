@@ -51,7 +51,8 @@ void readTexts(const GltfDocument& document, RawAsset& asset) {
 void checkFinite(const GltfDocument& document, std::uint32_t node, const RawMeshNode& mesh) {
   for (const RawPrimitive& primitive : mesh.primitives) {
     for (const RawVertex& vertex : primitive.vertices) {
-      if (!std::isfinite(glm::dot(vertex.position, Vec3(1.0f))) || !std::isfinite(vertex.uv.x + vertex.uv.y)) {
+      if (!std::isfinite(glm::dot(vertex.position, Vec3(1.0f))) ||
+          !std::isfinite(vertex.uv.x + vertex.uv.y)) {
         document.item("nodes", node).fail("a vertex of the node is too far away to be a number");
       }
     }
@@ -61,9 +62,10 @@ void checkFinite(const GltfDocument& document, std::uint32_t node, const RawMesh
 void weldMesh(RawMeshNode& mesh, std::vector<std::string>& warnings) {
   const std::size_t different = unifyWedges(mesh);
   if (different > 0) {
-    warnings.push_back(fmt::format("node '{}': {} vertices lie where another is that has other weights; they "
-                                   "take over its weights",
-                                   mesh.name, different));
+    warnings.push_back(
+        fmt::format("node '{}': {} vertices lie where another is that has other weights; they "
+                    "take over its weights",
+                    mesh.name, different));
   }
   for (RawPrimitive& primitive : mesh.primitives) weld(primitive);
 }
@@ -75,8 +77,14 @@ RawAsset readDocument(const GltfDocument& document) {
   const GltfNodes tree = readNodes(document);
   std::vector<GltfSkin> skins = readSkins(document, tree);
   const std::vector<GltfMaterial> materials = readMaterials(document, dropped, asset.warnings);
-  MeshReading reading{document, tree, materials, skins, dropped, asset.warnings,
-                      document.options().max_vertices, document.options().max_faces};
+  MeshReading reading{document,
+                      tree,
+                      materials,
+                      skins,
+                      dropped,
+                      asset.warnings,
+                      document.options().max_vertices,
+                      document.options().max_faces};
   std::vector<std::uint32_t> mesh_nodes;
   for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
     if (!tree.nodes[i].mesh) continue;

@@ -26,7 +26,11 @@ double distance(const glm::dmat4& a, const glm::dmat4& b) {
 
 const glm::dmat4 kIdentity(1.0);
 
-std::vector<glm::dmat4> readInverseBinds(const GltfDocument& document, const JsonRef& skin, std::size_t count) {
+/// Whether a matrix has no inverse worth the name: a node of scale 0 stands above.
+bool isFlat(const glm::dmat4& matrix) { return std::abs(glm::determinant(matrix)) < 1e-18; }
+
+std::vector<glm::dmat4> readInverseBinds(const GltfDocument& document, const JsonRef& skin,
+                                         std::size_t count) {
   std::vector<glm::dmat4> matrices(count, kIdentity);
   const auto accessor = document.findIndex(skin, "inverseBindMatrices", "accessors");
   if (!accessor) return matrices;
@@ -73,8 +77,8 @@ void addBones(const GltfDocument& document, const GltfNodes& tree, const std::se
       result.bone_of_node[chain.back()] = static_cast<std::uint32_t>(result.skeleton.bones.size());
       result.skeleton.bones.push_back({node.label(chain.back()), parent_bone, node.local});
       if (node.has_shear) {
-        warnings.push_back(fmt::format("bone '{}' has a matrix with shear, which is left out",
-                                       node.label(chain.back())));
+        warnings.push_back(
+            fmt::format("bone '{}' has a matrix with shear, which is left out", node.label(chain.back())));
       }
     }
   }
@@ -119,7 +123,7 @@ glm::dmat4 settleModelFromMesh(const GltfNodes& tree, const GltfSkin& skin) {
   std::vector<glm::dmat4> candidates{kIdentity, armature};
   for (std::size_t slot = 0; slot < skin.nodes.size(); ++slot) {
     if (!skin.carries_weight[slot]) continue;
-    candidates.push_back(skin.world_from_mesh[slot]);
+    if (!isFlat(skin.world_from_mesh[slot])) candidates.push_back(skin.world_from_mesh[slot]);
     break;
   }
   // The simplest matrix that every joint agrees with; the identity leaves positions bit-exact.
@@ -138,7 +142,7 @@ glm::dmat4 settleModelFromMesh(const GltfNodes& tree, const GltfSkin& skin) {
 std::vector<glm::dmat4> jointsFromModel(const JsonRef& json, const GltfSkin& skin) {
   std::vector<glm::dmat4> result = skin.joint_from_mesh;
   if (skin.model_from_mesh == kIdentity) return result;
-  if (std::abs(glm::determinant(skin.model_from_mesh)) < 1e-18) {
+  if (isFlat(skin.model_from_mesh)) {
     json.fail("the skeleton's scale is 0", "apply the armature's transforms and export again");
   }
   const glm::dmat4 mesh_from_model = glm::inverse(skin.model_from_mesh);
@@ -164,7 +168,8 @@ bool addJoints(const GltfDocument& document, std::size_t skin_index, GltfSkin& s
     skin.joint_of_slot.push_back(entry->second);
   }
   if (result.skeleton.joints.size() > document.options().max_joints) {
-    json.fail(fmt::format("more than the {} joints allowed", document.options().max_joints), "split the file");
+    json.fail(fmt::format("more than the {} joints allowed", document.options().max_joints),
+              "split the file");
   }
   return agrees;
 }
@@ -174,7 +179,7 @@ void rebindAtRest(const GltfDocument& document, const GltfNodes& tree, GltfSkele
   result.rebound_at_rest = true;
   for (const auto& [node, joint] : result.joint_of_node) {
     const glm::dmat4& world = tree.nodes[node].world_from_node;
-    if (std::abs(glm::determinant(world)) < 1e-18) document.item("nodes", node).fail("the joint's scale is 0");
+    if (isFlat(world)) document.item("nodes", node).fail("the joint's scale is 0");
     result.skeleton.joints[joint].joint_from_model = Mat4(glm::inverse(world));
   }
 }
@@ -249,8 +254,7 @@ void bindToJoint(const GltfSkeleton& skeleton, const GltfNodes& tree, std::uint3
   // At rest the joint moves model space by this; identity unless the file was saved in a pose.
   const glm::dmat4 world_from_model = tree.nodes[joint_node].world_from_node * joint_from_model;
   const glm::dmat4& world_from_node = tree.nodes[node].world_from_node;
-  const bool is_rest = distance(world_from_model, kIdentity) <= kTolerance ||
-                       std::abs(glm::determinant(world_from_model)) < 1e-18;
+  const bool is_rest = distance(world_from_model, kIdentity) <= kTolerance || isFlat(world_from_model);
   movePrimitives(is_rest ? world_from_node : glm::inverse(world_from_model) * world_from_node, mesh);
   for (RawPrimitive& primitive : mesh.primitives) {
     for (RawVertex& vertex : primitive.vertices) {
@@ -264,15 +268,20 @@ void bindToJoint(const GltfSkeleton& skeleton, const GltfNodes& tree, std::uint3
 std::vector<GltfSkin> readSkins(const GltfDocument& document, const GltfNodes& tree) {
   std::vector<GltfSkin> skins;
   const std::size_t skin_count = document.count("skins");
+  if (skin_count > document.options().max_joints) {
+    document.root().require("skins").fail(
+        fmt::format("{} skins are more than the {} allowed", skin_count, document.options().max_joints),
+        "split the file");
+  }
   for (std::size_t s = 0; s < skin_count; ++s) {
     const JsonRef json = document.item("skins", s);
     const JsonRef joints = json.require("joints");
     GltfSkin skin;
     if (joints.size() == 0) joints.fail("the skin has no joints");
     if (joints.size() > document.options().max_joints) {
-      joints.fail(fmt::format("{} joints are more than the {} allowed", joints.size(),
-                              document.options().max_joints),
-                  "split the file");
+      joints.fail(
+          fmt::format("{} joints are more than the {} allowed", joints.size(), document.options().max_joints),
+          "split the file");
     }
     std::set<std::uint32_t> seen;
     for (std::size_t slot = 0; slot < joints.size(); ++slot) {
@@ -282,7 +291,8 @@ std::vector<GltfSkin> readSkins(const GltfDocument& document, const GltfNodes& t
     }
     skin.joint_from_mesh = readInverseBinds(document, json, skin.nodes.size());
     for (std::size_t slot = 0; slot < skin.nodes.size(); ++slot) {
-      skin.world_from_mesh.push_back(tree.nodes[skin.nodes[slot]].world_from_node * skin.joint_from_mesh[slot]);
+      skin.world_from_mesh.push_back(tree.nodes[skin.nodes[slot]].world_from_node *
+                                     skin.joint_from_mesh[slot]);
     }
     skin.carries_weight.assign(skin.nodes.size(), false);
     skins.push_back(std::move(skin));

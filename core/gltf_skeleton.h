@@ -13,18 +13,18 @@ namespace ensemble {
 
 /// One skin of the file.
 struct GltfSkin {
-  std::vector<std::uint32_t> nodes;           ///< of each joint slot
-  std::vector<glm::dmat4> joint_from_mesh;    ///< inverse bind matrices, identities if left out
-  std::vector<glm::dmat4> world_from_mesh;    ///< B_j: how the joint moves the mesh at rest
-  std::vector<bool> carries_weight;           ///< per slot, filled in while meshes are read
-  std::vector<std::uint16_t> joint_of_slot;   ///< index into RawSkeleton::joints
-  glm::dmat4 model_from_mesh{1.0};            ///< B
-  bool used = false;                          ///< by a mesh in the scene
+  std::vector<std::uint32_t> nodes;          ///< of each joint slot
+  std::vector<glm::dmat4> joint_from_mesh;   ///< inverse bind matrices, identities if left out
+  std::vector<glm::dmat4> world_from_mesh;   ///< B_j: how the joint moves the mesh at rest
+  std::vector<bool> carries_weight;          ///< per slot, filled in while meshes are read
+  std::vector<std::uint16_t> joint_of_slot;  ///< index into RawSkeleton::joints
+  glm::dmat4 model_from_mesh{1.0};           ///< B
+  bool used = false;                         ///< by a mesh in the scene
 };
 
 struct GltfSkeleton {
   RawSkeleton skeleton;
-  std::vector<GltfSkin> skins;                        ///< as in the file
+  std::vector<GltfSkin> skins;  ///< as in the file
   std::map<std::uint32_t, std::uint32_t> bone_of_node;
   std::map<std::uint32_t, std::uint16_t> joint_of_node;
   std::vector<std::int32_t> nearest_joint;  ///< per node: the joint that it is or is below, or -1

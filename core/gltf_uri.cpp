@@ -64,7 +64,8 @@ std::optional<std::vector<std::byte>> decodeDataUri(const JsonRef& ref, std::uin
   }
   std::string_view text = std::string_view(uri).substr(comma + 1);
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  if (text.size() / 4 * 3 > max_bytes) ref.fail(fmt::format("the data URI has more than {} bytes", max_bytes));
+  if (text.size() / 4 * 3 > max_bytes)
+    ref.fail(fmt::format("the data URI has more than {} bytes", max_bytes));
   if (text.size() % 4 == 1) ref.fail("the data URI ends inside a base64 group");
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3 + 2);

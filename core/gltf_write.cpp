@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "core/check.h"
 #include "core/gltf_draco.h"
 #include "core/gltf_file.h"
 #include "core/gltf_glb_builder.h"
+#include "core/gltf_weld.h"
 
 namespace ensemble {
 namespace {
@@ -15,9 +17,12 @@ using Json = GlbBuilder::Json;
 
 constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
-Json toJson(const Vec3& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+Json toJson(const Vec3& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 Json toJson(const Quat& q) {
-  return {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z), static_cast<double>(q.w)};
+  return {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z),
+          static_cast<double>(q.w)};
 }
 
 /// Writes one asset. Each method adds one part of the document.
@@ -101,7 +106,8 @@ class GlbWriter {
     Json pbr{{"metallicFactor", 0.0}};
     if (material.base_color != Vec4(1.0f)) {
       pbr["baseColorFactor"] = Json::array();
-      for (int i = 0; i < 4; ++i) pbr["baseColorFactor"].push_back(static_cast<double>(material.base_color[i]));
+      for (int i = 0; i < 4; ++i)
+        pbr["baseColorFactor"].push_back(static_cast<double>(material.base_color[i]));
     }
     if (material.image) pbr["baseColorTexture"] = {{"index", addTexture(material)}};
     json["pbrMetallicRoughness"] = std::move(pbr);
@@ -179,8 +185,19 @@ class GlbWriter {
     return layout;
   }
 
-  Json primitiveJson(const RawPrimitive& primitive, bool skinned) {
-    checkPrimitive(primitive, skinned);
+  // Bindings as settleBinding leaves them, so that the validator accepts the weights.
+  static RawPrimitive settled(RawPrimitive primitive) {
+    for (RawVertex& vertex : primitive.vertices) {
+      std::array<std::pair<std::uint32_t, float>, 4> influences;
+      for (std::size_t i = 0; i < 4; ++i) influences[i] = {vertex.skin.joints[i], vertex.skin.weights[i]};
+      vertex.skin = settleBinding(influences);
+    }
+    return primitive;
+  }
+
+  Json primitiveJson(const RawPrimitive& given, bool skinned) {
+    checkPrimitive(given, skinned);
+    const RawPrimitive primitive = skinned ? settled(given) : given;
     const PrimitiveLayout layout = layoutOf(primitive, skinned);
     Json json{{"attributes", Json::object()}};
     if (options_.draco) {
@@ -201,12 +218,14 @@ class GlbWriter {
                    primitive.template_vertices.size() == primitive.vertices.size());
     if (!skinned) return;
     for (const RawVertex& vertex : primitive.vertices) {
-      for (const std::uint16_t joint : vertex.skin.joints) ENSEMBLE_CHECK(joint < asset_.skeleton.joints.size());
+      for (const std::uint16_t joint : vertex.skin.joints)
+        ENSEMBLE_CHECK(joint < asset_.skeleton.joints.size());
     }
   }
 
   template <class T, class Get>
-  std::size_t addAttribute(ViewKind kind, const RawPrimitive& primitive, AccessorShape shape, const Get& get) {
+  std::size_t addAttribute(ViewKind kind, const RawPrimitive& primitive, AccessorShape shape,
+                           const Get& get) {
     std::vector<T> values;
     for (const RawVertex& vertex : primitive.vertices) get(vertex, values);
     return builder_.addAccessor<T>(kind, values, primitive.vertices.size(), shape);
@@ -234,7 +253,8 @@ class GlbWriter {
     }
     if (layout.skin) addBindings(primitive, layout, attributes);
     if (layout.template_vertices) {
-      const std::vector<float> numbers(primitive.template_vertices.begin(), primitive.template_vertices.end());
+      const std::vector<float> numbers(primitive.template_vertices.begin(),
+                                       primitive.template_vertices.end());
       attributes["_TEMPLATE_VERTEX"] =
           builder_.addAccessor<float>(ViewKind::kTemplateVertex, numbers, numbers.size(), {"SCALAR"});
     }
@@ -285,13 +305,13 @@ class GlbWriter {
       if (name == "JOINTS_0") shape.component_type = layout.wide_joints ? kUint16 : kUint8;
       const std::size_t accessor = builder_.addEmptyAccessor(primitive.vertices.size(), shape);
       if (name == "POSITION") {
-        builder_.setBounds(accessor, std::span(&data.position_min[0], 3), std::span(&data.position_max[0], 3));
+        builder_.setBounds(accessor, std::span(&data.position_min[0], 3),
+                           std::span(&data.position_max[0], 3));
       }
       json["attributes"][name] = accessor;
       ids[name] = id;
     }
-    json["indices"] =
-        builder_.addEmptyAccessor(primitive.faces.size() * 3, {"SCALAR", indexType(primitive)});
+    json["indices"] = builder_.addEmptyAccessor(primitive.faces.size() * 3, {"SCALAR", indexType(primitive)});
     json["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", builder_.addView(data.bytes)},
                                                         {"attributes", std::move(ids)}};
   }
@@ -311,7 +331,8 @@ class GlbWriter {
     }
     const std::size_t accessor =
         builder_.addAccessor<float>(ViewKind::kInverseBind, matrices, skeleton.joints.size(), {"MAT4"});
-    builder_.json["skins"] = Json::array({{{"inverseBindMatrices", accessor}, {"joints", std::move(joints)}}});
+    builder_.json["skins"] =
+        Json::array({{{"inverseBindMatrices", accessor}, {"joints", std::move(joints)}}});
   }
 
   // A skin's joints must have a common root; where they have several, a plain node is put above them.
@@ -370,11 +391,11 @@ class GlbWriter {
       for (int c = 0; c < (is_rotation ? 4 : 3); ++c) values.push_back(value[c]);
     }
     const std::size_t input = addTimes(channel.times);
-    const std::size_t output = builder_.addAccessor<float>(ViewKind::kAnimation, values, channel.values.size(),
-                                                           {is_rotation ? "VEC4" : "VEC3"});
-    channels.push_back({{"sampler", samplers.size()},
-                        {"target",
-                         {{"node", channel.bone}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
+    const std::size_t output = builder_.addAccessor<float>(
+        ViewKind::kAnimation, values, channel.values.size(), {is_rotation ? "VEC4" : "VEC3"});
+    channels.push_back(
+        {{"sampler", samplers.size()},
+         {"target", {{"node", channel.bone}, {"path", kPaths[static_cast<std::size_t>(channel.path)]}}}});
     Json sampler{{"input", input}, {"output", output}};
     if (channel.interpolation != Interpolation::kLinear) {
       sampler["interpolation"] = kInterpolations[static_cast<std::size_t>(channel.interpolation)];

@@ -9,8 +9,8 @@
 #include <cstdio>  // jpeglib.h needs FILE
 #include <cstring>
 
-#include <jpeglib.h>
 #include <jerror.h>
+#include <jpeglib.h>
 
 #include "core/check.h"
 #include "core/input_error.h"
@@ -21,7 +21,9 @@ namespace {
 constexpr std::uint8_t kPngSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr const char* kConvert = "convert the image to PNG or JPEG";
 
-std::uint8_t byteAt(std::span<const std::byte> bytes, std::size_t i) { return std::to_integer<std::uint8_t>(bytes[i]); }
+std::uint8_t byteAt(std::span<const std::byte> bytes, std::size_t i) {
+  return std::to_integer<std::uint8_t>(bytes[i]);
+}
 
 std::uint32_t bigEndian(std::span<const std::byte> bytes, std::size_t offset, std::size_t size) {
   std::uint32_t value = 0;
@@ -100,7 +102,7 @@ bool decodePngRows(PngInput& input, const Image8& size, std::span<png_bytep> row
   }
   png_set_read_fn(png, &input, readPngBytes);
   png_read_info(png, info);
-  png_set_expand(png);    // palettes, 1 to 4 bits and tRNS become 8 bits
+  png_set_expand(png);  // palettes, 1 to 4 bits and tRNS become 8 bits
   png_set_scale_16(png);
   png_set_gray_to_rgb(png);
   png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
@@ -177,8 +179,9 @@ bool encodePngRows(const Image8& image, std::span<png_bytep> rows, bool opaque, 
     return false;
   }
   png_set_write_fn(png, &out, writePngBytes, flushNothing);
-  png_set_IHDR(png, info, image.width, image.height, 8, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, image.width, image.height, 8,
+               opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_compression_level(png, 6);
   png_set_filter(png, 0, PNG_FILTER_SUB);

@@ -53,7 +53,7 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
                                           .imageLayout = Layout::eDepthAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
                                           .storeOp = vk::AttachmentStoreOp::eDontCare,
-                                          .clearValue = {.depthStencil = {.depth = 0.0f}}};
+                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = colors.size(),

@@ -70,7 +70,7 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
                                           .imageLayout = Layout::eDepthAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
                                           .storeOp = vk::AttachmentStoreOp::eDontCare,
-                                          .clearValue = {.depthStencil = {.depth = 0.0f}}};
+                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = 1,

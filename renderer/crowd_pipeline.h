@@ -18,11 +18,11 @@ struct ShaderVariant {
 };
 
 struct PipelineOptions {
-  vk::ShaderModule vertex_shader;
-  vk::ShaderModule fragment_shader;  ///< null: depth only
-  ShaderVariant variant;
+  vk::ShaderModule vertex_shader = {};
+  vk::ShaderModule fragment_shader = {};  ///< null: depth only
+  ShaderVariant variant = {};
   bool draws_people = true;          ///< vertices as in vertex.h; else the shader makes its own
-  std::span<const vk::Format> color_formats;
+  std::span<const vk::Format> color_formats = {};
   std::uint32_t samples = 1;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  ///< reversed depth
   bool writes_depth = true;

@@ -39,7 +39,7 @@ void ShadowPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw
                                           .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
                                           .storeOp = vk::AttachmentStoreOp::eStore,
-                                          .clearValue = {.depthStencil = {.depth = 0.0f}}};
+                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
   const std::uint32_t size = targets.size.shadow_size;
   commands.beginRendering({.renderArea = {.extent = {size, size}}, .layerCount = 1, .pDepthAttachment = &depth});
   recordFullViewport(commands, size, size);

@@ -7,6 +7,7 @@ float sunShare(vec3 world, vec3 normal) {
   float slope = sqrt(max(1.0 - pow(max(dot(normal, view.to_sun.xyz), 0.0), 2.0), 0.0));
   vec3 p = world + normal * (view.ray_y.w * (0.5 + 1.5 * slope));
   vec3 shadow = (view.shadow_from_world * vec4(p, 1.0)).xyz;
+  shadow.z = clamp(shadow.z, 0.0, 1.0);  // the map's depth holds the people, not the ground
   vec2 at = (shadow.xy * 0.5 + 0.5) * view.to_sun.w;
   vec2 base = floor(at + 0.5);
   vec2 st = at + 0.5 - base;

@@ -87,8 +87,7 @@ void uploadImage(Device& device, const Image& image, std::span<const std::byte> 
   const auto rows_at_once = static_cast<std::uint32_t>(std::clamp<std::size_t>(kStagingBytes / row_bytes, 1, height));
   const Buffer staging(device, rows_at_once * row_bytes, vk::BufferUsageFlagBits::eTransferSrc,
                        Buffer::Kind::kUpload, "a staging buffer");
-  // Images are filled in the general layout, so that parts may come in any order.
-  constexpr auto layout = vk::ImageLayout::eGeneral;
+  constexpr auto layout = vk::ImageLayout::eTransferDstOptimal;
   for (std::uint32_t row = 0; row < height; row += rows_at_once) {
     const std::uint32_t rows = std::min(rows_at_once, height - row);
     std::memcpy(staging.mapped<std::byte>().data(), texels.data() + row * row_bytes, rows * row_bytes);
@@ -128,7 +127,7 @@ void finishUpload(Device& device, const Image& image) {
                    .to_stage = vk::PipelineStageFlagBits2::eAllCommands,
                    .from_access = vk::AccessFlagBits2::eTransferWrite,
                    .to_access = vk::AccessFlagBits2::eShaderSampledRead,
-                   .from = vk::ImageLayout::eGeneral,
+                   .from = vk::ImageLayout::eTransferDstOptimal,
                    .to = vk::ImageLayout::eShaderReadOnlyOptimal});
   });
 }

@@ -75,7 +75,7 @@ class Buffer {
 struct ImageOptions {
   std::uint32_t width = 1, height = 1, layers = 1, mip_levels = 1, samples = 1;
   vk::Format format = vk::Format::eUndefined;
-  vk::ImageUsageFlags usage;
+  vk::ImageUsageFlags usage = {};
   bool array_view = false;  ///< a 2D array view even of one layer
 };
 
@@ -114,8 +114,8 @@ void finishUpload(Device& device, const Image& image);
 
 /// One layout transition or memory dependency of a whole image.
 struct ImageBarrier {
-  vk::PipelineStageFlags2 from_stage, to_stage;
-  vk::AccessFlags2 from_access, to_access;
+  vk::PipelineStageFlags2 from_stage = {}, to_stage = {};
+  vk::AccessFlags2 from_access = {}, to_access = {};
   vk::ImageLayout from = vk::ImageLayout::eUndefined, to = vk::ImageLayout::eUndefined;
 };
 void recordBarrier(const vk::raii::CommandBuffer& commands, const Image& image, const ImageBarrier& barrier);

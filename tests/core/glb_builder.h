@@ -103,8 +103,9 @@ inline TestGlb triangleGlb() {
   const int position = glb.addAccessor<float>({0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
   const int normal = glb.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
   const int indices = glb.addAccessor<std::uint16_t>({0, 1, 2}, "SCALAR");
-  glb.add("meshes", {{"primitives",
-                      {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", indices}}}}});
+  glb.add("meshes",
+          {{"primitives",
+            {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", indices}}}}});
   glb.add("nodes", {{"name", "Tri"}, {"mesh", 0}});
   glb.json["scenes"] = {{{"nodes", {0}}}};
   return glb;
@@ -120,8 +121,7 @@ inline TestGlb skinnedGlb() {
   TestGlb glb = triangleGlb();
   auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
   attributes["JOINTS_0"] = glb.addAccessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
-  attributes["WEIGHTS_0"] =
-      glb.addAccessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.75f, 0.25f, 0, 0}, "VEC4");
+  attributes["WEIGHTS_0"] = glb.addAccessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.75f, 0.25f, 0, 0}, "VEC4");
   std::vector<float> matrices = translationMatrix(0, -1, 0);
   const std::vector<float> second = translationMatrix(0, 0, 0);
   matrices.insert(matrices.end(), second.begin(), second.end());

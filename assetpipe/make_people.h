@@ -1,0 +1,59 @@
+// `ensemble people`: template people and outfits made from a few parameters, by our own code.
+//
+// The files follow one convention: node `body` with the six regions as materials (head, hands, feet,
+// arms, torso, legs), nodes `garment.NAME`, one skin, metres, +Y up, facing +Z, bare soles at y = 0,
+// right side at -X.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "assetpipe/people_figure.h"
+#include "assetpipe/people_outfits.h"
+#include "core/raw_asset.h"
+
+namespace ensemble {
+
+/// One person to make.
+struct PersonConfig {
+  std::string name;                  ///< its folder's name
+  FigureOptions figure;
+  std::uint64_t seed = 0;            ///< of the garments' colours
+  PersonColors colors;
+  std::vector<std::string> outfits;  ///< names of outfitPlans(figure.sex); empty: all
+  std::uint32_t body_faces = 3300;   ///< about so many triangles, 1500 .. 20000
+};
+
+struct PeopleConfig {
+  std::vector<PersonConfig> people;  ///< at least one, names distinct
+};
+
+/// An outfit: garments with the part of the body that shows, and with the complete body.
+struct MadeOutfit {
+  std::string name;
+  RawAsset fitted, unfitted;
+};
+
+struct MadePerson {
+  std::string name;
+  RawAsset body;                     ///< the template: body, skeleton, clips `walk` and `idle`
+  std::vector<MadeOutfit> outfits;
+  float walk_speed = 0.0f;           ///< of `walk` over the ground, metres a second
+};
+
+/// Reads a configuration (docs/people.md). @throws InputError FILE: LINE:COLUMN: ...
+PeopleConfig loadPeopleConfig(const std::filesystem::path& file);
+PeopleConfig parsePeopleConfig(const std::string& text, const std::filesystem::path& file);
+
+/// Makes a person in memory; takes a few seconds. The same configuration gives the same bytes. A
+/// garment that several outfits share is the same in each, vertex by vertex.
+/// @pre the configuration is as loadPeopleConfig returns it.
+MadePerson makePerson(const PersonConfig& config);
+
+/// Writes DIR/NAME/template.glb, DIR/NAME/outfits/OUTFIT.glb and DIR/NAME/unfitted/OUTFIT.glb, each
+/// file whole or not at all; returns their paths. @throws SystemError
+std::vector<std::filesystem::path> writePerson(const MadePerson& person, const std::filesystem::path& folder);
+
+}  // namespace ensemble

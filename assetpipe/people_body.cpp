@@ -1,0 +1,111 @@
+#include "assetpipe/people_body.h"
+
+
+#include <algorithm>
+#include <cmath>
+
+#include "assetpipe/simplify_surface.h"
+
+namespace ensemble {
+namespace {
+
+Vec3 toLeft(const Vec3& p) { return {std::abs(p.x), p.y, p.z}; }
+
+/// Whether a point is nearer to an arm than to the rest of the body.
+bool isOnArm(const Figure& figure, const Vec3& p) {
+  return std::min(figure.arm(p), figure.hand(p)) < std::min(figure.torso(p), figure.leg(p));
+}
+
+/// Where errors count more: the face, then fingers, toes and the joints that bend.
+float importance(const Figure& figure, const Vec3& p) {
+  const float s = figure.scale;
+  const Vec3 face = figure.joints[kHead] + s * Vec3(0.0f, 0.045f, 0.07f);
+  const float at_face = 1.0f - smoothStep(0.075f * s, 0.115f * s, glm::distance(p, face));
+  const float at_head = smoothStep(-0.06f * s, 0.0f, p.y - figure.joints[kHead].y);
+  const float at_hand = smoothStep(-0.02f * s, 0.04f * s, handBorder(figure, p));
+  const float at_toes = 1.0f - smoothStep(0.02f * s, 0.05f * s, p.y);
+  float result = 0.55f + 13.0f * at_face + 1.2f * at_head + 1.9f * at_hand + 0.4f * at_toes;
+  for (const int joint : {kLowerArm, kCalf, kUpperArm}) {
+    const float distance = glm::distance(toLeft(p), figure.joints[static_cast<std::size_t>(joint)]);
+    result += 0.7f * (1.0f - smoothStep(0.05f * s, 0.12f * s, distance));
+  }
+  return result;
+}
+
+}  // namespace
+
+float headBorder(const Figure& figure, const Vec3& p) {
+  const Vec3 base = figure.joints[kNeck] - Vec3(0.0f, 0.005f * figure.scale, 0.0f);
+  return glm::dot(p - base, glm::normalize(Vec3(0.0f, 1.0f, 0.42f)));
+}
+
+float armBorder(const Figure& figure, const Vec3& p) {
+  const float from = 0.36f * glm::distance(figure.joints[kUpperArm], figure.joints[kLowerArm]);
+  const float along = glm::dot(toLeft(p) - figure.joints[kUpperArm], figure.armAxis()) - from;
+  return isOnArm(figure, p) ? along : -figure.scale;
+}
+
+float handBorder(const Figure& figure, const Vec3& p) {
+  const Vec3 axis = glm::normalize(figure.joints[kHand] - figure.joints[kLowerArm]);
+  const float along = glm::dot(toLeft(p) - figure.joints[kHand], axis) + 0.012f * figure.scale;
+  return isOnArm(figure, p) ? along : -figure.scale;
+}
+
+float legBorder(const Figure& figure, const Vec3& p) {
+  // From the groin up to the side of the hip, like the edge of briefs.
+  const float groin = figure.joints[kThigh].y - 0.085f * figure.scale;
+  const Vec3 side = toLeft(p);
+  if (isOnArm(figure, p)) return -figure.scale;
+  return (groin + 0.55f * side.x - p.y) / std::sqrt(1.0f + 0.55f * 0.55f);
+}
+
+float footBorder(const Figure& figure, const Vec3& p) {
+  return figure.joints[kFoot].y + 0.025f * figure.scale - p.y;
+}
+
+BodyRegion bodyRegion(const Figure& figure, const Vec3& p) {
+  if (armBorder(figure, p) > 0.0f) return handBorder(figure, p) > 0.0f ? BodyRegion::kHands : BodyRegion::kArms;
+  if (headBorder(figure, p) > 0.0f) return BodyRegion::kHead;
+  if (legBorder(figure, p) <= 0.0f) return BodyRegion::kTorso;
+  return footBorder(figure, p) > 0.0f ? BodyRegion::kFeet : BodyRegion::kLegs;
+}
+
+FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
+  const Field body = [&figure](const Vec3& p) { return figure.body(p); };
+  FieldMesherOptions mesher;
+  mesher.low = {0.0f, -0.02f, -0.35f * figure.scale};
+  mesher.high = {0.80f * figure.scale, figure.head_top.y + 0.03f, 0.35f * figure.scale};
+  mesher.cell = 0.004f * figure.scale;
+  mesher.half = true;
+  FieldMesh half = meshField(body, mesher);
+  using Border = float (*)(const Figure&, const Vec3&);
+  for (const Border border : {Border(headBorder), Border(armBorder), Border(handBorder), Border(legBorder),
+                              Border(footBorder)}) {
+    snapToBorder(half, body, [&](const Vec3& p) { return border(figure, p); }, mesher.cell);
+  }
+  for (std::size_t f = 0; f < half.faces.size(); ++f) {
+    const Triangle& face = half.faces[f];
+    const Vec3 middle =
+        (half.positions[face[0]] + half.positions[face[1]] + half.positions[face[2]]) / 3.0f;
+    half.labels[f] = static_cast<std::uint8_t>(bodyRegion(figure, middle));
+  }
+  SimplifySurfaceOptions simplify;
+  simplify.target_faces = face_count / 2;
+  simplify.importance = [&figure](const Vec3& p) { return importance(figure, p); };
+  return mirrored(simplifySurface(half, body, simplify));
+}
+
+RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position, const SkinBinding& skin) {
+  RawVertex vertex;
+  vertex.position = position;
+  vertex.normal = fieldNormal(field, position);
+  if (position.x == 0.0f) {
+    vertex.normal.x = 0.0f;
+    vertex.normal = glm::normalize(vertex.normal);
+  }
+  vertex.uv = {0.5f + position.x / figure.options.height, 1.0f - position.y / figure.options.height};
+  vertex.skin = skin;
+  return vertex;
+}
+
+}  // namespace ensemble

@@ -1,0 +1,43 @@
+// The skin: the body's surface cut into six regions, and the weights that bind it to the joints.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "assetpipe/field_mesher.h"
+#include "assetpipe/people_figure.h"
+
+namespace ensemble {
+
+/// The regions, in the order of their primitives in every file.
+enum class BodyRegion : std::uint8_t { kHead, kHands, kFeet, kArms, kTorso, kLegs };
+inline constexpr std::size_t kBodyRegionCount = 6;
+inline constexpr std::array<const char*, kBodyRegionCount> kBodyRegionNames = {"head", "hands", "feet",
+                                                                               "arms", "torso", "legs"};
+
+/// Borders between regions: positive on the side of the named region. They run where clothes end:
+/// at the neck's base, the upper arm below the shoulder, the wrist, along the groin, above the ankle.
+float headBorder(const Figure& figure, const Vec3& p);
+float armBorder(const Figure& figure, const Vec3& p);
+float handBorder(const Figure& figure, const Vec3& p);
+float legBorder(const Figure& figure, const Vec3& p);
+float footBorder(const Figure& figure, const Vec3& p);
+
+BodyRegion bodyRegion(const Figure& figure, const Vec3& p);
+
+/// The body's surface, closed, about `face_count` faces (even), labels are BodyRegion.
+FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count);
+
+/// Which joints move a point on or near the body; a smooth function of the position, so that clothes
+/// move with the skin below them. Weights descend and sum to 1.
+SkinBinding bodyBinding(const Figure& figure, const Vec3& p);
+
+/// A skirt's: as the body's down to the waist, then the pelvis and more and more the thighs, shared
+/// between left and right. `loose` from 0 (hugs the thighs) to 1 (swings less than they do).
+SkinBinding skirtBinding(const Figure& figure, const Vec3& p, float loose);
+
+/// A vertex with the normal of `field` (outward), texture coordinates from the front, and `skin`.
+RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position, const SkinBinding& skin);
+
+}  // namespace ensemble

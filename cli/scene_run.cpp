@@ -1,0 +1,51 @@
+#include "cli/scene_run.h"
+
+#include <fmt/format.h>
+
+#include "core/input_error.h"
+
+namespace ensemble::cli {
+
+void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("SCENE", arguments.scene, "The scene's YAML file")->required()->type_name("FILE");
+  command
+      .add_option("--set", arguments.overrides,
+                  "Override a key of the scene, e.g. crowd.count=200; may be given several times")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
+  command.add_flag("--validate", arguments.validate,
+                   "Run the Vulkan validation layer and fail on any message (slow; off by default)");
+}
+
+Scene loadSceneOf(const SceneArguments& arguments) {
+  std::vector<SceneOverride> overrides;
+  for (const std::string& text : arguments.overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError({.file = {},
+                        .where = "--set " + text,
+                        .what = "there is no key and value",
+                        .mend = "write key.path=value, e.g. --set crowd.count=200"});
+    }
+    overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return loadScene(arguments.scene, overrides);
+}
+
+std::vector<Wardrobe> loadWardrobes(const Scene& scene) {
+  std::vector<Wardrobe> wardrobes;
+  for (const SceneWardrobe& wardrobe : scene.wardrobes) wardrobes.push_back(loadWardrobe(wardrobe.folder));
+  return wardrobes;
+}
+
+void refuseValidationMessages(const Renderer& renderer) {
+  const std::vector<std::string> messages = renderer.validationMessages();
+  if (messages.empty()) return;
+  throw SystemError({.file = {},
+                     .where = "--validate",
+                     .what = fmt::format("the validation layer has {} messages; the first: {}", messages.size(),
+                                         messages.front()),
+                     .mend = "report it as a bug"});
+}
+
+}  // namespace ensemble::cli

@@ -1,0 +1,31 @@
+// What `render` and `bench` share: a scene with overrides, its wardrobes, the validation layer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "core/scene.h"
+#include "core/wardrobe.h"
+#include "renderer/renderer.h"
+
+namespace ensemble::cli {
+
+/// The options that name a scene.
+struct SceneArguments {
+  std::string scene;
+  std::vector<std::string> overrides;  ///< key.path=value
+  bool validate = false;
+};
+void addSceneOptions(CLI::App& command, SceneArguments& arguments);
+
+/// @throws InputError, UsageError as loadScene; UsageError for an override without `=`
+Scene loadSceneOf(const SceneArguments& arguments);
+
+/// The wardrobes of a scene, in its order. @throws as loadWardrobe
+std::vector<Wardrobe> loadWardrobes(const Scene& scene);
+
+/// @throws SystemError with the first message, if the validation layer has said anything
+void refuseValidationMessages(const Renderer& renderer);
+
+}  // namespace ensemble::cli
