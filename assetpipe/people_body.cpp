@@ -35,8 +35,19 @@ float importance(const Figure& figure, const Vec3& p) {
 }  // namespace
 
 float headBorder(const Figure& figure, const Vec3& p) {
+  return neckline(figure, p, 0.0f, figure.isFemale() ? 0.072f : 0.088f);
+}
+
+float neckline(const Figure& figure, const Vec3& p, float rise, float radius) {
   const Vec3 base = figure.joints[kNeck] - Vec3(0.0f, 0.005f * figure.scale, 0.0f);
-  return glm::dot(p - base, glm::normalize(Vec3(0.0f, 1.0f, 0.42f)));
+  const Vec3 up = glm::normalize(Vec3(0.0f, 1.0f, 0.42f));
+  const Vec3 axis = glm::normalize(figure.joints[kHead] - figure.joints[kNeck]);
+  const Vec3 offset = p - base;
+  const float above = glm::dot(offset, up) - rise * figure.scale;
+  const float beside = glm::length(offset - axis * glm::dot(offset, axis));
+  // Higher up everything is head, chin and ears too.
+  const float wide = radius * figure.scale + std::max(0.0f, 1.6f * (above - 0.045f * figure.scale));
+  return std::min(above, wide - beside);
 }
 
 float armBorder(const Figure& figure, const Vec3& p) {

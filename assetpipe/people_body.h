@@ -24,6 +24,10 @@ float handBorder(const Figure& figure, const Vec3& p);
 float legBorder(const Figure& figure, const Vec3& p);
 float footBorder(const Figure& figure, const Vec3& p);
 
+/// Positive inside a neckline: above a plane that falls to the front, `rise` over the neck's base, and
+/// within `radius` of the neck's axis; both in metres of the reference figure.
+float neckline(const Figure& figure, const Vec3& p, float rise, float radius);
+
 BodyRegion bodyRegion(const Figure& figure, const Vec3& p);
 
 /// The body's surface, closed, about `face_count` faces (even), labels are BodyRegion.

@@ -21,7 +21,7 @@ struct GarmentDesign {
   std::function<SkinBinding(const Vec3&)> binding;
   std::function<float(const Vec3&)> importance;    ///< for the simplification; unset: 1
   Vec3 low{0.0f}, high{0.0f};             ///< box that holds it
-  float cell = 0.004f;                    ///< of the grid it is meshed on, metres
+  float cell = 0.006f;                    ///< of the grid it is meshed on, metres
   float hem = 0.006f;                     ///< how far the edges are turned in, metres
   float cover_margin = 0.02f;             ///< skin nearer than this to an edge stays, metres
   bool covers_skin = true;                ///< false: hides no skin (hair)

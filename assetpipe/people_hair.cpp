@@ -53,6 +53,7 @@ GarmentDesign startHair(const Figure& f, const char* name, const Palette& palett
   design.low = fromHead(f, Vec3(-0.16f, -0.20f, -0.24f));
   design.high = fromHead(f, Vec3(0.16f, 0.16f, 0.22f));
   design.hem = 0.010f;
+  design.cell = 0.0045f;
   design.face_count = 900;
   return design;
 }
@@ -64,7 +65,7 @@ GarmentDesign designShortHair(const Figure& f, const Palette& palette) {
   SolidGroup hair;
   const float size = f.head_size;
   hair.join(skullShell(f, {0.0f, 0.012f, -0.012f}, {0.0835f, 0.0955f, 0.1045f}), 0.0f);
-  hair.join(skullShell(f, {0.012f, 0.062f, 0.028f}, {0.062f, 0.044f, 0.066f}), 0.03f * size);
+  hair.join(skullShell(f, {0.012f, 0.062f, 0.022f}, {0.060f, 0.042f, 0.062f}), 0.03f * size);
   design.symmetric = false;
   design.shell = [&f, hair, size](const Vec3& p) {
     return hair.distance(p) - size * strands(onHead(f, p), 0.0013f);
@@ -164,7 +165,7 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   design.materials.push_back(clothMaterial("cloth.cap.visor", palette.second));
   const float size = f.head_size;
   SolidGroup dome;
-  dome.join(skullShell(f, {0.0f, 0.022f, -0.010f}, {0.0900f, 0.0960f, 0.1090f}), 0.0f);
+  dome.join(skullShell(f, {0.0f, 0.024f, -0.008f}, {0.0930f, 0.1010f, 0.1130f}), 0.0f);
   SolidGroup visor;
   const Mat3 tilt = Mat3(glm::mat3_cast(glm::angleAxis(radians(12.0f), Vec3(1, 0, 0))));
   visor.join(Solid::ellipsoid(fromHead(f, Vec3(0.0f, 0.034f, 0.088f)), Vec3(0.078f, 0.0075f, 0.086f) * size, tilt), 0.0f);
@@ -179,7 +180,7 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   const Field rim = [dome, size](const Vec3& p) { return dome.distance(p) - 0.003f * size; };
   design.seams = {rim};
   design.label = [rim](const Vec3& p) { return static_cast<std::uint8_t>(rim(p) > 0.0f ? 1 : 0); };
-  design.cell = 0.0032f;
+  design.cell = 0.004f;
   design.hem = 0.006f;
   design.face_count = 700;
   return design;

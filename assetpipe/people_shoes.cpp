@@ -39,7 +39,7 @@ void cutShoe(GarmentDesign& design, const Figure& f, const ShoeCut& cut) {
   design.binding = [&f](const Vec3& p) { return bodyBinding(f, p); };
   design.low = Vec3(-0.25f * s, -0.03f * s, -0.16f * s);
   design.high = Vec3(0.25f * s, 0.20f * s, 0.26f * s);
-  design.cell = 0.003f;
+  design.cell = 0.004f;
   design.hem = 0.005f;
   design.cover_margin = 0.012f;
   design.face_count = 800;

@@ -53,9 +53,15 @@ SolidGroup sleeves(const Figure& f, float shoulder, float elbow, float wrist) {
 struct TopCut {
   float offset = 0.009f;     // metres off the skin
   float hem_y = 0.9f;        // metres
-  float neck_rise = 0.012f;  // of the neckline over the neck's base, metres
+  float neck_rise = 0.012f;  // of the neckline over the neck's base, metres of the reference figure
+  float neck_wide = 0.075f;  // its radius, likewise
   float sleeve = 0.6f;       // length, see sleeveEnd
 };
+
+float topNeck(const Figure& f, const Vec3& p, const TopCut& cut, float further = 0.0f) {
+  const float slim = f.isFemale() ? 0.84f : 1.0f;
+  return neckline(f, p, cut.neck_rise - further, cut.neck_wide * slim + further);
+}
 
 /// Shell and opening of an ordinary top.
 void cutTop(GarmentDesign& design, const Figure& f, const TopCut& cut, const SolidGroup& hanging,
@@ -67,7 +73,7 @@ void cutTop(GarmentDesign& design, const Figure& f, const TopCut& cut, const Sol
     return value - cut.offset;
   };
   design.opening = [&f, cut](const Vec3& p) {
-    return std::max({cut.hem_y - p.y, headBorder(f, p) - cut.neck_rise, sleeveEnd(f, p, cut.sleeve)});
+    return std::max({cut.hem_y - p.y, topNeck(f, p, cut), sleeveEnd(f, p, cut.sleeve)});
   };
   design.binding = [&f](const Vec3& p) { return bodyBinding(f, p); };
   const float s = f.scale;
@@ -90,13 +96,6 @@ SolidGroup tshirtDrape(const Figure& f, float looser) {
   return group;
 }
 
-/// Labels bands of `width` along the edges of an ordinary top.
-void addBands(GarmentDesign& design, float width) {
-  const Field band = [opening = design.opening, width](const Vec3& p) { return opening(p) + width; };
-  design.seams.push_back(band);
-  design.label = [band](const Vec3& p) { return static_cast<std::uint8_t>(band(p) > 0.0f ? 1 : 0); };
-}
-
 float hipHeight(const Figure& f) { return f.joints[kThigh].y; }
 
 }  // namespace
@@ -108,12 +107,13 @@ GarmentDesign designTshirt(const Figure& f, const Palette& palette) {
   TopCut cut;
   cut.offset = 0.010f;
   cut.hem_y = hipHeight(f) - 0.030f * f.scale;
-  cut.neck_rise = -0.006f * f.scale;
+  cut.neck_rise = -0.012f;
+  cut.neck_wide = 0.080f;
   cut.sleeve = 0.66f;
   cutTop(design, f, cut, tshirtDrape(f, 0.004f), sleeves(f, 0.060f, 0.060f, 0.0f));
-  const Field neckline = [&f, cut](const Vec3& p) { return headBorder(f, p) - cut.neck_rise + 0.014f * f.scale; };
-  design.seams = {neckline};
-  design.label = [neckline](const Vec3& p) { return static_cast<std::uint8_t>(neckline(p) > 0.0f ? 1 : 0); };
+  const Field rib = [&f, cut](const Vec3& p) { return topNeck(f, p, cut, 0.014f); };
+  design.seams = {rib};
+  design.label = [rib](const Vec3& p) { return static_cast<std::uint8_t>(rib(p) > 0.0f ? 1 : 0); };
   design.face_count = 1500;
   return design;
 }
@@ -125,7 +125,7 @@ GarmentDesign designShirt(const Figure& f, const Palette& palette) {
   TopCut cut;
   cut.offset = 0.007f;
   cut.hem_y = hipHeight(f) + 0.020f * f.scale;
-  cut.neck_rise = 0.026f * f.scale;
+  cut.neck_rise = 0.026f;
   cut.sleeve = 1.98f;
   cutTop(design, f, cut, tshirtDrape(f, -0.004f), sleeves(f, 0.052f, 0.046f, 0.034f));
   const float s = f.scale;
@@ -136,7 +136,7 @@ GarmentDesign designShirt(const Figure& f, const Palette& palette) {
     const float side = half * s - std::abs(p.x);
     return std::min({side, p.z - 0.02f * s, down * s + 0.028f * s, 0.46f * s - down * s - std::abs(p.x)});
   };
-  const Field collar = [&f, s](const Vec3& p) { return headBorder(f, p) + 0.012f * s; };
+  const Field collar = [&f, cut](const Vec3& p) { return topNeck(f, p, cut, 0.038f); };
   design.shell = [inner = design.shell, tie, collar, s](const Vec3& p) {
     const float raised = 0.0045f * s * smoothStep(-0.003f * s, 0.003f * s, tie(p));
     const float band = 0.004f * s * smoothStep(-0.004f * s, 0.004f * s, collar(p));
@@ -155,9 +155,9 @@ GarmentDesign designBlouse(const Figure& f, const Palette& palette) {
   TopCut cut;
   cut.offset = 0.007f;
   cut.hem_y = f.joints[kPelvis].y + 0.030f * f.scale;
-  cut.neck_rise = 0.004f * f.scale;
-  cut.sleeve = 1.55f;
-  cutTop(design, f, cut, tshirtDrape(f, 0.000f), sleeves(f, 0.060f, 0.058f, 0.066f));
+  cut.neck_rise = 0.004f;
+  cut.sleeve = 1.85f;
+  cutTop(design, f, cut, tshirtDrape(f, 0.000f), sleeves(f, 0.052f, 0.048f, 0.036f));
   // A V-neck.
   design.opening = [inner = design.opening, &f](const Vec3& p) {
     const float s = f.scale;
@@ -177,7 +177,7 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   TopCut cut;
   cut.offset = 0.016f;
   cut.hem_y = hipHeight(f) - 0.010f * s;
-  cut.neck_rise = 0.022f * s;
+  cut.neck_rise = 0.022f;
   cut.sleeve = 1.97f;
   SolidGroup hanging = tshirtDrape(f, 0.007f);
   // The hood lies behind the neck and comes around to the chest.
@@ -192,12 +192,12 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
     const float up = (p.y - hem) / s;
     return std::min({(0.125f - 0.30f * std::max(up - 0.12f, 0.0f)) * s - std::abs(p.x), p.z, (up - 0.055f) * s, (0.205f - up) * s});
   };
-  const float head_limit = 0.060f * s;
+  const float head_limit = 0.060f;
   const Field body_opening = design.opening;
   design.opening = [&f, body_opening, hood, head_limit, s](const Vec3& p) {
     // The neckline does not cut the hood, which stands higher than it.
     const float on_hood = hood.distance(toLeft(p)) - 0.004f * s;
-    return std::max(std::min(body_opening(p), std::max(on_hood, headBorder(f, p) - head_limit)),
+    return std::max(std::min(body_opening(p), std::max(on_hood, neckline(f, p, head_limit, 1.0f))),
                     p.y - (f.joints[kNeck].y + 0.09f * s));
   };
   design.shell = [inner = design.shell, hood, pocket, s](const Vec3& p) {
@@ -223,7 +223,7 @@ GarmentDesign designJacket(const Figure& f, const Palette& palette) {
   TopCut cut;
   cut.offset = 0.017f;
   cut.hem_y = hipHeight(f) - (f.isFemale() ? 0.02f : 0.075f) * s;
-  cut.neck_rise = 0.004f * s;
+  cut.neck_rise = 0.004f;
   cut.sleeve = 1.93f;
   SolidGroup hanging = tshirtDrape(f, 0.004f);
   cutTop(design, f, cut, hanging, sleeves(f, 0.058f, 0.052f, 0.041f));
@@ -277,8 +277,8 @@ GarmentDesign designDress(const Figure& f, const Palette& palette) {
     const float armhole = std::min(glm::dot(toLeft(p) - shoulder + Vec3(0.040f * s, 0, 0), glm::normalize(Vec3(1.0f, 0.25f, 0.0f))),
                                    p.y - (shoulder.y - 0.085f * s));
     const Vec3 scoop = (p - Vec3(0.0f, f.joints[kNeck].y + 0.010f * s, 0.055f * s)) / (s * Vec3(0.088f, 0.090f, 0.115f));
-    const float neckline = (1.0f - glm::length(scoop)) * 0.088f * s;
-    return std::max({hem_y - p.y, armhole, neckline, headBorder(f, p) - 0.010f * s});
+    const float scooped = (1.0f - glm::length(scoop)) * 0.088f * s;
+    return std::max({hem_y - p.y, armhole, scooped, neckline(f, p, 0.010f, 0.075f)});
   };
   design.binding = [&f](const Vec3& p) { return skirtBinding(f, p, 0.6f); };
   const Field belt = [waist, s](const Vec3& p) { return 0.018f * s - std::abs(p.y - waist); };

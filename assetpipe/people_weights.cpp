@@ -92,7 +92,7 @@ class Weigher {
   }
 
   void weighHead(float share) {
-    const float neck = smoothStep(-0.030f * s_, 0.055f * s_, headBorder(f_, p_));
+    const float neck = smoothStep(-0.030f * s_, 0.055f * s_, neckline(f_, p_, 0.0f, 1.0f));
     const float up = p_.y - joint(kHead).y + 0.5f * p_.z;
     const float head = smoothStep(-0.045f * s_, 0.015f * s_, up);
     add(kSpine3, share * (1.0f - neck));
@@ -194,7 +194,7 @@ SkinBinding skirtBinding(const Figure& figure, const Vec3& p, float loose) {
   const float below_waist = smoothStep(-0.02f * s, 0.10f * s, figure.joints[kSpine1].y - p.y);
   Weights weights = Weigher(figure, p).run();
   for (float& weight : weights) weight *= 1.0f - below_waist;
-  const float down = smoothStep(-0.04f * s, 0.22f * s, figure.joints[kThigh].y - p.y);
+  const float down = smoothStep(-0.05f * s, glm::mix(0.06f, 0.26f, loose) * s, figure.joints[kThigh].y - p.y);
   const float to_legs = below_waist * down * (1.0f - 0.30f * loose);
   const float half = glm::mix(0.05f, 0.13f, loose) * s;
   const float left_side = smoothStep(-half, half, p.x);

@@ -80,6 +80,7 @@ class Simplifier {
   }
 
   FieldMesh run(const Field& field) {
+    thinOut();
     for (std::uint32_t v = 0; v < faces_of_.size(); ++v) enqueue(v);
     // Costs in the queue may be out of date: a vertex is asked again when its turn comes.
     while (face_count_ > options_.target_faces && !queue_.empty()) {
@@ -92,9 +93,12 @@ class Simplifier {
       if (!queue_.empty() && best > queue_.top()) {
         is_queued_[best.from] = 1;
         queue_.push(best);
-      } else {
-        apply(best);
+        continue;
       }
+      apply(best);
+      enqueue(best.to);
+      neighbours(best.to, touched_);
+      for (const std::uint32_t v : touched_) enqueue(v);
     }
     settle(field);
     for (int round = 0; round < options_.relax_rounds; ++round) relax(field);
@@ -110,6 +114,19 @@ class Simplifier {
     if (best.to == v) return;  // asked again when a neighbour has changed
     is_queued_[v] = 1;
     queue_.push(best);
+  }
+
+  /// Most vertices of the grid cost next to nothing: they go in a few sweeps, without a queue.
+  void thinOut() {
+    const double edge = 0.2 * fine_edge_;  // about the grid's cell
+    double limit = options_.compactness * options_.compactness * 6.0 * edge * edge * edge * edge;
+    for (int sweep = 0; sweep < 4 && face_count_ > 12 * options_.target_faces; ++sweep, limit *= 4.0) {
+      for (std::uint32_t v = 0; v < faces_of_.size(); ++v) {
+        if (faces_of_[v].empty()) continue;
+        const Collapse best = findBest(v);
+        if (best.to != v && best.cost < limit) apply(best);
+      }
+    }
   }
 
   static bool isAlive(const Triangle& face) { return face[0] != face[1]; }
@@ -282,9 +299,6 @@ class Simplifier {
       }
     }
     faces_of_[from].clear();
-    enqueue(to);
-    neighbours(to, touched_);
-    for (const std::uint32_t v : touched_) enqueue(v);
   }
 
   /// Moves every vertex onto the surface.

@@ -84,9 +84,9 @@ void run(const RenderArguments& arguments) {
     rows.push_back(toJson(frame, file.string(), picture.stats));
     progress.advance();
   }
-  refuseValidationMessages(renderer);
   writeFigures(arguments.common,
                {{"schema", "ensemble.render/1"}, {"device", renderer.deviceName()}, {"frames", std::move(rows)}});
+  refuseValidationMessages(renderer);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/input_error.h"
+#include "core/log.h"
 
 namespace ensemble::cli {
 
@@ -41,11 +42,11 @@ std::vector<Wardrobe> loadWardrobes(const Scene& scene) {
 void refuseValidationMessages(const Renderer& renderer) {
   const std::vector<std::string> messages = renderer.validationMessages();
   if (messages.empty()) return;
+  for (const std::string& message : messages) logWarning(message);
   throw SystemError({.file = {},
                      .where = "--validate",
-                     .what = fmt::format("the validation layer has {} messages; the first: {}", messages.size(),
-                                         messages.front()),
-                     .mend = "report it as a bug"});
+                     .what = fmt::format("the validation layer has {} messages", messages.size()),
+                     .mend = "report them as a bug"});
 }
 
 }  // namespace ensemble::cli

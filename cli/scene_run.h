@@ -25,7 +25,7 @@ Scene loadSceneOf(const SceneArguments& arguments);
 /// The wardrobes of a scene, in its order. @throws as loadWardrobe
 std::vector<Wardrobe> loadWardrobes(const Scene& scene);
 
-/// @throws SystemError with the first message, if the validation layer has said anything
+/// Logs what the validation layer has said. @throws SystemError if there is anything
 void refuseValidationMessages(const Renderer& renderer);
 
 }  // namespace ensemble::cli

@@ -13,7 +13,7 @@ layout(location = 0) out vec4 normal_u;  // world normal, not of unit length, an
 layout(location = 1) out vec4 world_v;   // world position and v
 layout(location = 2) flat out uvec2 who;  // character, draw
 
-invariant gl_Position;
+precise gl_Position;
 
 void main() {
   uint character = queue[gl_InstanceIndex];

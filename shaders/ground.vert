@@ -5,7 +5,7 @@
 
 layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
 
-invariant gl_Position;
+precise gl_Position;
 
 void main() {
   const vec2 kAround[4] = vec2[4](vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0), vec2(0.0, -1.0));

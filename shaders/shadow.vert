@@ -6,7 +6,7 @@
 #include "shaders/crowd_sets.glsl"
 #include "shaders/skinning.glsl"
 
-invariant gl_Position;
+precise gl_Position;
 
 void main() {
   uint character = queue[gl_InstanceIndex];

@@ -11,7 +11,7 @@ layout(location = ENSEMBLE_ATTRIBUTE_UV) in vec2 uv;
 layout(location = 0) out vec2 out_uv;
 layout(location = 1) flat out uvec2 who;  // character, draw
 
-invariant gl_Position;
+precise gl_Position;
 
 void main() {
   uint character = queue[gl_InstanceIndex];

@@ -7,11 +7,13 @@ struct WorldFromModel {
   vec4 row_0, row_1, row_2;
 };
 
+// `precise`: the passes must cover the same pixels, whatever else their shaders compute.
+//
 // The pose pass has multiplied world_from_model into the palette already. Four joints always: where
 // a shader runs on the CPU a branch is a mask, and skipping a joint of weight 0 saves nothing.
 WorldFromModel blendedJoints(uint first_joint) {
   uvec4 at = (uvec4(first_joint) + joints) * 3u;
-  WorldFromModel m;
+  precise WorldFromModel m;
   m.row_0 = palette[at.x] * weights.x + palette[at.y] * weights.y + palette[at.z] * weights.z +
             palette[at.w] * weights.w;
   m.row_1 = palette[at.x + 1] * weights.x + palette[at.y + 1] * weights.y + palette[at.z + 1] * weights.z +
@@ -23,5 +25,6 @@ WorldFromModel blendedJoints(uint first_joint) {
 
 vec3 worldPosition(WorldFromModel m) {
   vec4 p = vec4(model_position, 1.0);
-  return vec3(dot(m.row_0, p), dot(m.row_1, p), dot(m.row_2, p));
+  precise vec3 world = vec3(dot(m.row_0, p), dot(m.row_1, p), dot(m.row_2, p));
+  return world;
 }

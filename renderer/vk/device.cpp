@@ -56,6 +56,7 @@ std::string missingFrom(const vk::raii::PhysicalDevice& device) {
   if (!v11.shaderDrawParameters) return "shaderDrawParameters";
   if (!v13.dynamicRendering) return "dynamicRendering";
   if (!v13.synchronization2) return "synchronization2";
+  if (!v13.maintenance4) return "maintenance4";
   return {};
 }
 
@@ -188,7 +189,7 @@ void Device::createDevice() {
                                          .depthClamp = true,
                                          .samplerAnisotropy = offered.samplerAnisotropy,
                                          .pipelineStatisticsQuery = offered.pipelineStatisticsQuery};
-  vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true};
+  vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
   vk::PhysicalDeviceVulkan11Features v11{.pNext = &v13, .shaderDrawParameters = true};
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue_info{

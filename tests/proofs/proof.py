@@ -1,6 +1,7 @@
 """What the proofs share: their command line, running the program, loud skips, the comparison."""
 import argparse
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -70,7 +71,6 @@ def needNode(options, package):
 
 def node(options, script, *parts):
     """Runs a script of this folder with Node.js; its standard output."""
-    import os
     environment = dict(os.environ, NODE_PATH=str(options.node_modules))
     return run("node", PROJECT / "tests/proofs" / script, *parts, env=environment)
 
@@ -145,5 +145,8 @@ def blender(script, *parts):
     """Runs a script of this folder inside Blender without a window; its output."""
     if shutil.which("blender") is None:
         skip("Blender is not installed (scripts/install_packages.sh test)")
+    # Debian's Blender takes the first python3 in PATH for its own, and that must be Debian's.
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    environment["PATH"] = "/usr/bin:/bin:" + environment.get("PATH", "")
     return run("blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-               PROJECT / "tests/proofs" / script, "--", *parts)
+               PROJECT / "tests/proofs" / script, "--", *parts, env=environment)

@@ -1,0 +1,77 @@
+// `ensemble people`: template people and outfits made from a few parameters.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "assetpipe/make_people.h"
+#include "cli/command.h"
+#include "core/log.h"
+#include "core/progress.h"
+
+namespace ensemble::cli {
+namespace {
+
+struct PeopleArguments {
+  CommonOptions common;
+  std::string config, folder;
+};
+
+std::size_t faceCount(const RawMeshNode& node) {
+  std::size_t faces = 0;
+  for (const RawPrimitive& primitive : node.primitives) faces += primitive.faces.size();
+  return faces;
+}
+
+nlohmann::ordered_json figuresOf(const MadePerson& person) {
+  nlohmann::ordered_json figures = {{"name", person.name},
+                                    {"body_faces", faceCount(person.body.meshes.front())},
+                                    {"joints", person.body.skeleton.joints.size()},
+                                    {"walk_speed", person.walk_speed},
+                                    {"outfits", nlohmann::ordered_json::array()}};
+  for (const MadeOutfit& outfit : person.outfits) {
+    nlohmann::ordered_json entry = {{"name", outfit.name},
+                                    {"visible_body_faces", faceCount(outfit.fitted.meshes.front())},
+                                    {"garments", nlohmann::ordered_json::array()}};
+    for (std::size_t i = 1; i < outfit.fitted.meshes.size(); ++i) {
+      const RawMeshNode& node = outfit.fitted.meshes[i];
+      entry["garments"].push_back({{"name", node.name}, {"faces", faceCount(node)}});
+    }
+    figures["outfits"].push_back(std::move(entry));
+  }
+  return figures;
+}
+
+void run(const PeopleArguments& arguments) {
+  const PeopleConfig config = loadPeopleConfig(arguments.config);
+  nlohmann::ordered_json figures = {{"schema", "ensemble.people/1"}, {"people", nlohmann::ordered_json::array()}};
+  std::string text;
+  Progress progress("people", config.people.size());
+  for (const PersonConfig& person_config : config.people) {
+    const MadePerson person = makePerson(person_config);
+    for (const auto& file : writePerson(person, arguments.folder)) logDetail("wrote " + file.string());
+    figures["people"].push_back(figuresOf(person));
+    text += fmt::format("{}: {} faces, {} outfits in {}\n", person.name, faceCount(person.body.meshes.front()),
+                        person.outfits.size(), (std::filesystem::path(arguments.folder) / person.name).string());
+    progress.advance();
+  }
+  writeFigures(arguments.common, figures);
+  printResult(arguments.common, text);
+}
+
+}  // namespace
+
+void addPeopleCommand(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("people", "Make template people and outfits from a few parameters");
+  const auto arguments = std::make_shared<PeopleArguments>();
+  command.add_option("CONFIG", arguments->config, "Who to make (docs/people.md)")->required()->type_name("FILE.yaml");
+  command.add_option("-o,--output", arguments->folder, "Write NAME/template.glb, NAME/outfits/ and NAME/unfitted/ here")
+      ->required()
+      ->type_name("FOLDER");
+  finishCommand(command, arguments->common, "ensemble people config/people/two.yaml -o people",
+                [arguments] { run(*arguments); });
+}
+
+}  // namespace ensemble::cli
