@@ -21,19 +21,18 @@ float smoothStep(float from, float to, float x) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-Vec3 fieldGradient(const Field& field, const Vec3& position) {
-  constexpr float kStep = 1e-3f;
+Vec3 fieldGradient(const Field& field, const Vec3& position, float step) {
   Vec3 gradient(0.0f);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 offset(0.0f);
-    offset[axis] = kStep;
-    gradient[axis] = (field(position + offset) - field(position - offset)) / (2.0f * kStep);
+    offset[axis] = step;
+    gradient[axis] = (field(position + offset) - field(position - offset)) / (2.0f * step);
   }
   return gradient;
 }
 
-Vec3 fieldNormal(const Field& field, const Vec3& position) {
-  const Vec3 gradient = fieldGradient(field, position);
+Vec3 fieldNormal(const Field& field, const Vec3& position, float step) {
+  const Vec3 gradient = fieldGradient(field, position, step);
   const float length = glm::length(gradient);
   return length > 1e-6f ? gradient / length : Vec3(0.0f, 1.0f, 0.0f);
 }
@@ -177,10 +176,11 @@ float Solid::loftDistance(const Vec3& position) const {
   };
   const float side = at(&LoftRow::side);
   const float z = local.z - at(&LoftRow::center_z);
-  const float depth = z > 0.0f ? at(&LoftRow::front) : at(&LoftRow::back);
+  const float front = at(&LoftRow::front), back = at(&LoftRow::back);
+  const float depth = z > 0.0f ? front : back;
   const float x = std::abs(local.x - at(&LoftRow::center_x)) / side;
   const float w = std::abs(z) / depth;
-  const float cap = std::min(side, depth);
+  const float cap = std::min(side, 0.5f * (front + back));
   const float y = std::abs(local.y - along) / cap;
   // The super-ellipse's level is 1 on the surface; divided by its gradient it is a distance.
   float ring, slope_x, slope_w;

@@ -23,9 +23,10 @@ float smoothMax(float a, float b, float radius);
 /// 0 below `from`, 1 above `to`, smooth between.
 float smoothStep(float from, float to, float x);
 
-/// The gradient by central differences, not normalised; and the unit outward normal.
-Vec3 fieldGradient(const Field& field, const Vec3& position);
-Vec3 fieldNormal(const Field& field, const Vec3& position);
+/// The gradient by central differences over 2 * step metres, not normalised; and the unit outward
+/// normal. A longer step smooths over details that the triangles can't show.
+Vec3 fieldGradient(const Field& field, const Vec3& position, float step = 1e-3f);
+Vec3 fieldNormal(const Field& field, const Vec3& position, float step = 1e-3f);
 
 /// Moves a point near the surface onto it (Newton along the gradient), by at most `limit` metres.
 Vec3 projectToSurface(const Field& field, const Vec3& position, float limit);

@@ -24,7 +24,22 @@ float importance(const Figure& figure, const Vec3& p) {
   const float at_head = smoothStep(-0.06f * s, 0.0f, p.y - figure.joints[kHead].y);
   const float at_hand = smoothStep(-0.02f * s, 0.04f * s, handBorder(figure, p));
   const float at_toes = 1.0f - smoothStep(0.02f * s, 0.05f * s, p.y);
-  float result = 0.55f + 13.0f * at_face + 1.2f * at_head + 1.9f * at_hand + 0.4f * at_toes;
+  // Small features weigh little by their area, so each is named.
+  struct Feature {
+    Vec3 center;  // metres of the reference head, from between the ears
+    float radius;
+  };
+  constexpr Feature kFeatures[] = {{{0.032f, -0.008f, 0.082f}, 0.024f},
+                                   {{0.000f, -0.083f, 0.095f}, 0.026f},
+                                   {{0.006f, -0.045f, 0.108f}, 0.020f},
+                                   {{0.082f, -0.018f, -0.008f}, 0.034f}};
+  float at_feature = 0.0f;
+  for (const Feature& feature : kFeatures) {
+    const float distance = glm::distance((toLeft(p) - figure.head_center) / figure.head_size, feature.center);
+    const float weight = feature.center.x > 0.05f ? 0.06f : 1.0f;  // an ear is large enough by itself
+    at_feature = std::max(at_feature, weight * (1.0f - smoothStep(0.6f * feature.radius, feature.radius, distance)));
+  }
+  float result = 0.42f + 35.0f * at_face + 260.0f * at_feature + 1.8f * at_head + 2.2f * at_hand + 0.4f * at_toes;
   for (const int joint : {kLowerArm, kCalf, kUpperArm}) {
     const float distance = glm::distance(toLeft(p), figure.joints[static_cast<std::size_t>(joint)]);
     result += 0.7f * (1.0f - smoothStep(0.05f * s, 0.12f * s, distance));
@@ -47,7 +62,7 @@ float neckline(const Figure& figure, const Vec3& p, float rise, float radius) {
   const float beside = glm::length(offset - axis * glm::dot(offset, axis));
   // Higher up everything is head, chin and ears too.
   const float wide = radius * figure.scale + std::max(0.0f, 1.6f * (above - 0.045f * figure.scale));
-  return std::min(above, wide - beside);
+  return smoothMin(above, wide - beside, 0.03f * figure.scale);
 }
 
 float armBorder(const Figure& figure, const Vec3& p) {
@@ -86,7 +101,7 @@ FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
   FieldMesherOptions mesher;
   mesher.low = {0.0f, -0.02f, -0.35f * figure.scale};
   mesher.high = {0.80f * figure.scale, figure.head_top.y + 0.03f, 0.35f * figure.scale};
-  mesher.cell = 0.004f * figure.scale;
+  mesher.cell = 0.0034f * figure.scale;
   mesher.half = true;
   FieldMesh half = meshField(body, mesher);
   using Border = float (*)(const Figure&, const Vec3&);
@@ -109,7 +124,8 @@ FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
 RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position, const SkinBinding& skin) {
   RawVertex vertex;
   vertex.position = position;
-  vertex.normal = fieldNormal(field, position);
+  constexpr float kNormalStep = 0.0035f;  // metres: about the size of the smallest triangles
+  vertex.normal = fieldNormal(field, position, kNormalStep);
   if (position.x == 0.0f) {
     vertex.normal.x = 0.0f;
     vertex.normal = glm::normalize(vertex.normal);

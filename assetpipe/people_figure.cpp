@@ -235,8 +235,9 @@ class Builder {
                 s(0.025f));
     }
     head.join(ball(fromHead(0, -0.109f, 0.078f), headSize(0.024f * jaw, 0.0175f, 0.018f)), s(0.018f));
-    head.join(cone(Vec3(0, m_.neck - 0.04f, -0.036f), fromHead(0, -0.06f, -0.014f), neck * 1.06f, neck),
-              s(0.028f));
+    const Solid column = cone(Vec3(0, m_.neck - 0.04f, -0.036f), fromHead(0, -0.06f, -0.014f), neck * 1.06f, neck);
+    head.join(column, s(0.028f));
+    figure_.neck_solids.join(column, 0.0f);
   }
 
   void buildFace() {
@@ -246,13 +247,14 @@ class Builder {
       head.join(cone(fromHead(side * 0.014f, 0.010f, 0.0855f), fromHead(side * 0.050f, 0.008f, 0.0655f),
                      0.0115f * soft, 0.0095f * soft),
                 s(0.018f));
-      head.join(ball(fromHead(side * 0.044f, -0.038f, 0.060f), headSize(0.024f, 0.019f, 0.026f)), s(0.02f));
+      head.join(ball(fromHead(side * 0.043f, -0.036f, 0.058f), headSize(0.024f, 0.020f, 0.026f)), s(0.028f));
+      head.join(ball(fromHead(side * 0.034f, -0.068f, 0.052f), headSize(0.026f, 0.034f, 0.030f)), s(0.030f));
     }
     for (const float side : {1.0f, -1.0f}) {
-      head.carve(ball(fromHead(side * 0.032f, -0.0085f, 0.107f), headSize(0.021f, 0.0125f, 0.0205f)),
-                 s(0.014f));
-      head.join(ball(fromHead(side * 0.032f, -0.0095f, 0.0765f), headSize(0.0145f, 0.0105f, 0.0125f)),
-                s(0.004f));
+      head.carve(ball(fromHead(side * 0.032f, -0.0085f, 0.107f), headSize(0.022f, 0.0135f, 0.0200f)),
+                 s(0.016f));
+      head.join(ball(fromHead(side * 0.032f, -0.0095f, 0.0765f), headSize(0.0155f, 0.0120f, 0.0135f)),
+                s(0.006f));
     }
     head.join(cone(fromHead(0, -0.004f, 0.0935f), fromHead(0, -0.046f, 0.1135f), 0.0080f,
                    0.0115f * (female_ ? 0.92f : 1.04f)),
@@ -261,12 +263,12 @@ class Builder {
       head.join(ball(fromHead(side * 0.0115f, -0.0495f, 0.1025f), headSize(0.0088f, 0.0078f, 0.0105f)),
                 s(0.007f));
       // Lips: two halves of a bow above, two below.
-      head.join(cone(fromHead(side * 0.004f, -0.0765f, 0.0985f), fromHead(side * 0.0205f, -0.0795f, 0.0885f),
-                     0.0065f, 0.0035f),
-                s(0.006f));
-      head.join(cone(fromHead(side * 0.003f, -0.0885f, 0.0980f), fromHead(side * 0.0180f, -0.0850f, 0.0890f),
-                     0.0073f, 0.0040f),
-                s(0.006f));
+      head.join(cone(fromHead(side * 0.005f, -0.0770f, 0.0970f), fromHead(side * 0.0205f, -0.0800f, 0.0870f),
+                     0.0072f, 0.0045f),
+                s(0.009f));
+      head.join(cone(fromHead(side * 0.004f, -0.0890f, 0.0960f), fromHead(side * 0.0180f, -0.0860f, 0.0875f),
+                     0.0082f, 0.0050f),
+                s(0.009f));
       const Mat3 flare = Mat3(glm::mat3_cast(glm::angleAxis(radians(side * -18.0f), Vec3(0, 1, 0)) *
                                              glm::angleAxis(radians(-10.0f), Vec3(1, 0, 0))));
       head.join(ball(fromHead(side * 0.0795f, -0.018f, -0.008f), headSize(0.0085f, 0.0315f, 0.0190f), flare),

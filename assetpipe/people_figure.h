@@ -46,7 +46,7 @@ struct Figure {
   float head_size = 1.0f;                         ///< of this head to the reference man's
   std::array<Vec3, kBodyJointCount> joints{};     ///< metres, at rest
   Vec3 head_top{0.0f}, hand_end{0.0f}, toe_end{0.0f};  ///< where the last bones end (left)
-  SolidGroup head_solids, torso_solids, arm_solids, hand_solids, leg_solids, foot_solids;
+  SolidGroup head_solids, neck_solids, torso_solids, arm_solids, hand_solids, leg_solids, foot_solids;
 
   float head(const Vec3& p) const;
   float torso(const Vec3& p) const;

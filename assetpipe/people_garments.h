@@ -22,8 +22,8 @@ struct GarmentDesign {
   std::function<float(const Vec3&)> importance;    ///< for the simplification; unset: 1
   Vec3 low{0.0f}, high{0.0f};             ///< box that holds it
   float cell = 0.006f;                    ///< of the grid it is meshed on, metres
-  float hem = 0.006f;                     ///< how far the edges are turned in, metres
-  float cover_margin = 0.02f;             ///< skin nearer than this to an edge stays, metres
+  float hem = 0.005f;                     ///< how far the edges are turned in, metres
+  float cover_margin = 0.02f;             ///< skin nearer than this to an edge shows, metres
   bool covers_skin = true;                ///< false: hides no skin (hair)
   bool symmetric = true;                  ///< half is made and mirrored
   std::size_t face_count = 1000;          ///< wanted, before the mirror image: both halves together
@@ -33,14 +33,15 @@ struct GarmentDesign {
 struct MadeGarment {
   RawMeshNode node;                    ///< `material` indexes `materials`
   std::vector<RawMaterial> materials;
-  /// Negative where skin lies under the cloth and away from its edges; unset: it hides nothing.
+  /// How well skin at a point is covered: 0 where no cloth lies over it, 1 at `cover_margin` from the
+  /// edges, more further in; unset: it hides nothing.
   Field cover;
 };
 
-/// Meshes a design: the outside, with its edges turned in towards the skin.
+/// Meshes a design: the outside, cut at its openings, with the edges turned in towards the skin.
 MadeGarment makeGarment(const Figure& figure, const GarmentDesign& design);
 
-/// Which faces of the body lie under some garment, #F.
+/// Which faces of the body can be left out under some garments, #F.
 std::vector<std::uint8_t> findCoveredFaces(const FieldMesh& body, const std::vector<const MadeGarment*>& garments);
 
 /// Linear base colours.

@@ -52,7 +52,7 @@ GarmentDesign startHair(const Figure& f, const char* name, const Palette& palett
   design.covers_skin = false;
   design.low = fromHead(f, Vec3(-0.16f, -0.20f, -0.24f));
   design.high = fromHead(f, Vec3(0.16f, 0.16f, 0.22f));
-  design.hem = 0.010f;
+  design.hem = 0.009f;
   design.cell = 0.0045f;
   design.face_count = 900;
   return design;

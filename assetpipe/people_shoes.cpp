@@ -65,7 +65,7 @@ GarmentDesign designOxfords(const Figure& f, const Palette& palette) {
   design.name = "cloth.oxfords";
   design.materials = {clothMaterial("cloth.oxfords", palette.main), clothMaterial("cloth.oxfords.sole", palette.second)};
   ShoeCut cut;
-  cut.offset = 0.006f;
+  cut.offset = 0.008f;
   cut.shaft_y = 0.082f;
   cut.shaft_slope = 0.05f;
   cut.sole_high = 0.006f;

@@ -12,7 +12,7 @@ Vec3 toLeft(const Vec3& p) { return {std::abs(p.x), p.y, p.z}; }
 /// What a top is tailored over.
 float upperBody(const Figure& f, const Vec3& p) {
   const float s = f.scale;
-  float value = smoothMin(f.torso(p), f.head(p), 0.035f * s);
+  float value = smoothMin(f.torso(p), f.neck_solids.distance(p), 0.035f * s);
   value = smoothMin(value, f.leg(p), 0.035f * s);
   return smoothMin(value, f.arm(p), 0.03f * s);
 }
@@ -266,7 +266,7 @@ GarmentDesign designDress(const Figure& f, const Palette& palette) {
                           row(waist - 0.30f * drop, 0.180f, 0.122f, 0.130f), row(waist, 0.124f, 0.088f, 0.080f)}),
              0.0f);
   design.shell = [&f, skirt, s](const Vec3& p) {
-    float value = smoothMin(f.torso(p), f.head(p), 0.035f * s) - 0.007f;
+    float value = smoothMin(f.torso(p), f.neck_solids.distance(p), 0.035f * s) - 0.007f;
     // Folds run down from the waist and grow towards the hem.
     const float fall = smoothStep(0.0f, 0.45f * s, f.joints[kSpine1].y - p.y);
     const float folds = 0.010f * s * fall * std::cos(9.0f * std::atan2(p.x, p.z));

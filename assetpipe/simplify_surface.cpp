@@ -49,6 +49,9 @@ struct Quadric {
   }
 };
 
+/// Vertices that are more important than this stay where the collapses left them: on the features.
+constexpr double kKeepPlace = 4.0;
+
 /// What kind of line an edge lies on; vertices only slide along their own line.
 enum class Line : std::uint8_t { kNone, kLabels, kBorder, kMirrorPlane };
 
@@ -311,7 +314,7 @@ class Simplifier {
   /// Moves each vertex that lies on no line towards the middle of its neighbours, along the surface.
   void relax(const Field& field) {
     for (std::uint32_t v = 0; v < faces_of_.size(); ++v) {
-      if (faces_of_[v].empty() || on_line_[v] != 0) continue;
+      if (faces_of_[v].empty() || on_line_[v] != 0 || importance_[v] > kKeepPlace) continue;
       neighbours(v, around_);
       Vec3 middle(0.0f);
       for (const std::uint32_t n : around_) middle += mesh_.positions[n];

@@ -25,7 +25,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", [] { return versionText(); }, "Print version, build type and Vulkan device");
   for (const auto add : {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand,
-                         addRenderCommand, addPeopleCommand}) {
+                         addRenderCommand, addBenchCommand, addPeopleCommand}) {
     add(app);
   }
   try {

@@ -2,7 +2,7 @@
 # Usage: scripts/demo.sh [DIR]
 #
 # From nothing to a picture of a thousand differently dressed people, and a report of what the
-# tagging saved. Installs the packages, builds, and then makes people (config/people), or takes
+# tagging saved. Installs the packages, builds, and then makes two people (config/people), or takes
 # those in DIR: each subfolder (or DIR itself) with a template.glb and outfits/*.glb is a wardrobe.
 # Leaves all it makes in out/: wardrobes/, scene.yaml, crowd.png, reports/.
 set -euo pipefail
@@ -75,7 +75,7 @@ rm -rf "$out/wardrobes" "$out/reports" "$out/scene.yaml" "$out/crowd.png"
 mkdir -p "$out/wardrobes" "$out/reports"
 if [ -z "$source_folder" ]; then
   rm -rf "$out/people"
-  step "Making people" "$ensemble" people "$project"/config/people/*.yaml -o "$out/people"
+  step "Making people" "$ensemble" people "$project/config/people/two.yaml" -o "$out/people"
   findPeople "$out/people"
 fi
 keys=()

@@ -26,7 +26,9 @@ def describe(file):
                               if modifier.type == "ARMATURE" and modifier.object), None),
         } for entry in meshes},
         "bones": sorted(bone.name for armature in bpy.data.armatures for bone in armature.bones),
-        "clips": sorted(action.name for action in bpy.data.actions),
+        # The importer names its actions CLIP_ARMATURE, and the tracks that play them as the clips.
+        "clips": sorted({track.name for entry in bpy.data.objects if entry.animation_data
+                         for track in entry.animation_data.nla_tracks}),
     }
 
 

@@ -119,7 +119,8 @@ def madePeople(options):
     configs = sorted((PROJECT / "config/people").glob("*.yaml"))
     if not configs:
         fail("there is no config/people/*.yaml")
-    run(options.ensemble, "people", *configs, "-o", options.work / "people", "-q")
+    for config in configs:
+        run(options.ensemble, "people", config, "-o", options.work / "people" / config.stem, "-q")
     return peopleIn(options.work / "people")
 
 
