@@ -61,7 +61,8 @@ class PersonMaker {
  public:
   explicit PersonMaker(const PersonConfig& config)
       : config_(config), figure_(makeFigure(config.figure)), skeleton_(makeSkeleton(figure_)),
-        mesh_(makeBodyMesh(figure_, config.body_faces)) {
+        mesh_(makeBodyMesh(figure_, config.body_faces)),
+        face_(makeFaceDetails(figure_, mesh_, {config.colors.hair * 0.7f, Vec3(0.050f, 0.030f, 0.020f)})) {
     const Field body = [this](const Vec3& p) { return figure_.body(p); };
     for (const Vec3& p : mesh_.positions) {
       vertices_.push_back(makeVertex(figure_, body, p, bodyBinding(figure_, p)));
@@ -90,6 +91,7 @@ class PersonMaker {
  private:
   MadeOutfit dress(const OutfitPlan& plan) {
     std::vector<const MadeGarment*> garments;
+    garments.push_back(&face_);
     for (const std::string& name : plan.garments) garments.push_back(&garment(name));
     const std::vector<std::uint8_t> hidden = findCoveredFaces(mesh_, garments);
     MadeOutfit outfit;
@@ -129,6 +131,7 @@ class PersonMaker {
   const Figure figure_;
   const RawSkeleton skeleton_;
   const FieldMesh mesh_;
+  const MadeGarment face_;
   std::vector<RawVertex> vertices_;
   std::vector<std::uint8_t> nothing_hidden_;
   std::map<std::string, std::unique_ptr<MadeGarment>> garments_;

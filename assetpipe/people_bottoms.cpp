@@ -54,8 +54,9 @@ void cutLegs(GarmentDesign& design, const Figure& f, const LegCut& cut) {
 void addStripes(GarmentDesign& design, const Figure& f) {
   const Field stripe = [&f](const Vec3& p) {
     const float s = f.scale;
-    const float t = std::clamp((f.joints[kThigh].y - p.y) / (f.joints[kThigh].y - f.joints[kCalf].y), -0.3f, 2.0f);
-    const Vec3 axis = glm::mix(f.joints[kThigh], f.joints[kCalf], t);
+    const bool below_knee = p.y < f.joints[kCalf].y;
+    const Vec3 from = f.joints[below_knee ? kCalf : kThigh], to = f.joints[below_knee ? kFoot : kCalf];
+    const Vec3 axis = glm::mix(from, to, std::max((from.y - p.y) / (from.y - to.y), -0.3f));
     return std::min(0.014f * s - std::abs(p.z - axis.z), std::abs(p.x) - axis.x);
   };
   design.seams = {stripe};
@@ -70,12 +71,12 @@ GarmentDesign designJeans(const Figure& f, const Palette& palette) {
   design.materials = {clothMaterial("cloth.jeans", palette.main), clothMaterial("cloth.jeans.belt", palette.second)};
   const bool slim = f.isFemale();
   LegCut cut;
-  cut.offset = 0.007f;
+  cut.offset = 0.009f;
   cut.waist_y = f.joints[kPelvis].y + (slim ? 0.045f : 0.030f) * f.scale;
-  cut.hem_y = f.joints[kFoot].y - 0.022f * f.scale;
+  cut.hem_y = f.joints[kFoot].y + (slim ? 0.014f : -0.035f) * f.scale;
   cut.thigh = slim ? 0.070f : 0.080f;
   cut.knee = slim ? 0.052f : 0.061f;
-  cut.ankle = slim ? 0.045f : 0.061f;
+  cut.ankle = slim ? 0.043f : 0.063f;
   cutLegs(design, f, cut);
   design.face_count = 1400;
   return design;

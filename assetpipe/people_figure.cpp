@@ -224,10 +224,11 @@ class Builder {
 
   void buildHead() {
     SolidGroup& head = figure_.head_solids;
-    const float jaw = female_ ? 0.90f : 1.0f;
+    const float jaw = female_ ? 0.76f : 0.96f;
     const float neck = (female_ ? 0.047f : 0.058f) * (1.0f + 0.08f * figure_.options.build);
+    const float narrow = female_ ? 0.92f : 1.0f;
     head.join(ball(fromHead(0, 0.008f, -0.010f), headSize(0.0765f, 0.092f, 0.0975f)), 0.0f);
-    head.join(ball(fromHead(0, -0.036f, 0.026f), headSize(0.062f, 0.084f, 0.071f)), s(0.03f));
+    head.join(ball(fromHead(0, -0.036f, 0.026f), headSize(0.062f * narrow, 0.084f, 0.071f)), s(0.03f));
     head.join(ball(fromHead(0, -0.090f, 0.040f), headSize(0.047f * jaw, 0.036f, 0.051f)), s(0.03f));
     for (const float side : {1.0f, -1.0f}) {
       head.join(cone(fromHead(side * 0.050f * jaw, -0.070f, 0.008f),
@@ -248,7 +249,7 @@ class Builder {
                      0.0115f * soft, 0.0095f * soft),
                 s(0.018f));
       head.join(ball(fromHead(side * 0.043f, -0.036f, 0.058f), headSize(0.024f, 0.020f, 0.026f)), s(0.028f));
-      head.join(ball(fromHead(side * 0.034f, -0.068f, 0.052f), headSize(0.026f, 0.034f, 0.030f)), s(0.030f));
+      head.join(ball(fromHead(side * 0.034f, -0.068f, 0.052f), headSize(0.026f * (female_ ? 0.72f : 1.0f), 0.034f, 0.030f)), s(0.030f));
     }
     for (const float side : {1.0f, -1.0f}) {
       head.carve(ball(fromHead(side * 0.032f, -0.0085f, 0.107f), headSize(0.022f, 0.0135f, 0.0200f)),

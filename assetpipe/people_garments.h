@@ -46,16 +46,19 @@ std::vector<std::uint8_t> findCoveredFaces(const FieldMesh& body, const std::vec
 
 /// Linear base colours.
 struct Palette {
-  Vec3 main{0.5f}, second{0.5f}, third{0.5f};
+  Vec3 main{0.5f}, second{0.5f};
 };
 
 RawMaterial clothMaterial(const std::string& name, const Vec3& linear_color);
 
-/// The designs; colours by Palette. What `second` and `third` are is told per design.
-GarmentDesign designTshirt(const Figure& figure, const Palette& palette);     // second: collar and cuffs
+/// Eyes, brows and lashes on the triangles of `body`. main: brows; second: irises.
+MadeGarment makeFaceDetails(const Figure& figure, const FieldMesh& body, const Palette& palette);
+
+/// The designs. What `second` colours is told per design.
+GarmentDesign designTshirt(const Figure& figure, const Palette& palette);
 GarmentDesign designShirt(const Figure& figure, const Palette& palette);      // second: tie
 GarmentDesign designBlouse(const Figure& figure, const Palette& palette);
-GarmentDesign designHoodie(const Figure& figure, const Palette& palette);     // second: pocket and cuffs
+GarmentDesign designHoodie(const Figure& figure, const Palette& palette);     // second: cuffs and hem
 GarmentDesign designJacket(const Figure& figure, const Palette& palette);     // second: lapels
 GarmentDesign designDress(const Figure& figure, const Palette& palette);      // second: belt
 GarmentDesign designJeans(const Figure& figure, const Palette& palette);      // second: belt

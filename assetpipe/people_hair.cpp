@@ -25,11 +25,12 @@ SkinBinding onHeadOnly() {
 /// Positive in front of the hairline, from the forehead past the temples to the sideburns; head's measures.
 float hairline(const Vec3& h, float sideburn) {
   const float side = std::abs(h.x);
-  // The forehead's line is curved: lower in the middle's sides, higher at the temples.
-  const float forehead = h.z - (0.030f + 0.80f * (h.y - 0.012f)) - 0.10f * std::max(side - 0.03f, 0.0f);
-  const float ear_front = h.z - 0.024f - 0.15f * (h.y + 0.02f);
-  const float low = sideburn - h.y;
-  return std::max(h.y > 0.012f ? forehead : std::max(forehead, ear_front), std::min(low, h.z + 0.002f));
+  // A curve on the forehead: highest in the middle, down along the temples to the ears.
+  const float height = 0.050f - 9.0f * std::max(side - 0.015f, 0.0f) * std::max(side - 0.015f, 0.0f);
+  const float forehead = smoothMin(height - h.y, h.z - 0.020f, 0.02f);
+  const float temple = h.z - 0.026f - 0.12f * h.y;
+  const float below_sideburn = std::min(sideburn - h.y, h.z + 0.002f);
+  return std::max(std::min(forehead, temple), below_sideburn);
 }
 
 /// Positive below the line behind the ear down to the nape.
@@ -120,7 +121,7 @@ GarmentDesign designBun(const Figure& f, const Palette& palette) {
   };
   design.opening = [&f, size, knot](const Vec3& p) {
     const Vec3 h = onHead(f, p);
-    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)), knot.distance(p) + 0.01f * size);
+    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)), knot.distance(p) - 0.008f * size);
   };
   design.face_count = 900;
   return design;
@@ -145,7 +146,7 @@ GarmentDesign designPonytail(const Figure& f, const Palette& palette) {
   };
   design.opening = [&f, size, tail](const Vec3& p) {
     const Vec3 h = onHead(f, p);
-    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)), tail.distance(p) + 0.01f * size);
+    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)), tail.distance(p) - 0.008f * size);
   };
   const Field tie = [&f, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
@@ -165,10 +166,10 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   design.materials.push_back(clothMaterial("cloth.cap.visor", palette.second));
   const float size = f.head_size;
   SolidGroup dome;
-  dome.join(skullShell(f, {0.0f, 0.024f, -0.008f}, {0.0930f, 0.1010f, 0.1130f}), 0.0f);
+  dome.join(skullShell(f, {0.0f, 0.026f, -0.006f}, {0.0950f, 0.1040f, 0.1150f}), 0.0f);
   SolidGroup visor;
   const Mat3 tilt = Mat3(glm::mat3_cast(glm::angleAxis(radians(12.0f), Vec3(1, 0, 0))));
-  visor.join(Solid::ellipsoid(fromHead(f, Vec3(0.0f, 0.034f, 0.088f)), Vec3(0.078f, 0.0075f, 0.086f) * size, tilt), 0.0f);
+  visor.join(Solid::ellipsoid(fromHead(f, Vec3(0.0f, 0.033f, 0.098f)), Vec3(0.079f, 0.0075f, 0.090f) * size, tilt), 0.0f);
   const auto edge = [&f, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
     return size * (0.030f + 0.10f * h.z - h.y);

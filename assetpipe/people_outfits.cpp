@@ -24,7 +24,7 @@ constexpr std::array<NamedColor, 6> kHairColors = {{{"black", {0.110f, 0.095f, 0
 
 /// sRGB colours for a garment: each row goes together.
 struct Colorway {
-  Vec3 main, second, third;
+  Vec3 main, second;
 };
 
 using Design = GarmentDesign (*)(const Figure&, const Palette&);
@@ -39,65 +39,65 @@ constexpr Vec3 kWhite{0.93f, 0.92f, 0.90f}, kBlack{0.10f, 0.10f, 0.11f}, kLeathe
 
 const std::array<GarmentEntry, 15> kGarments = {{
     {"tshirt", designTshirt,
-     {{{{0.80f, 0.29f, 0.24f}, {0.70f, 0.24f, 0.20f}, kWhite},
-       {{0.93f, 0.90f, 0.84f}, {0.86f, 0.82f, 0.75f}, kWhite},
-       {{0.24f, 0.48f, 0.47f}, {0.19f, 0.40f, 0.40f}, kWhite}}}},
+     {{{{0.80f, 0.29f, 0.24f}, {0.70f, 0.24f, 0.20f}},
+       {{0.93f, 0.90f, 0.84f}, {0.86f, 0.82f, 0.75f}},
+       {{0.24f, 0.48f, 0.47f}, {0.19f, 0.40f, 0.40f}}}}},
     {"shirt", designShirt,
-     {{{kWhite, {0.48f, 0.12f, 0.15f}, kWhite},
-       {{0.76f, 0.84f, 0.92f}, {0.13f, 0.18f, 0.33f}, kWhite},
-       {{0.90f, 0.86f, 0.89f}, {0.30f, 0.16f, 0.33f}, kWhite}}}},
+     {{{kWhite, {0.48f, 0.12f, 0.15f}},
+       {{0.76f, 0.84f, 0.92f}, {0.13f, 0.18f, 0.33f}},
+       {{0.90f, 0.86f, 0.89f}, {0.30f, 0.16f, 0.33f}}}}},
     {"blouse", designBlouse,
-     {{{{0.94f, 0.92f, 0.87f}, kWhite, kWhite},
-       {{0.86f, 0.66f, 0.64f}, kWhite, kWhite},
-       {{0.68f, 0.80f, 0.82f}, kWhite, kWhite}}}},
+     {{{{0.94f, 0.92f, 0.87f}, kWhite},
+       {{0.86f, 0.66f, 0.64f}, kWhite},
+       {{0.68f, 0.80f, 0.82f}, kWhite}}}},
     {"hoodie", designHoodie,
-     {{{{0.86f, 0.63f, 0.25f}, {0.78f, 0.55f, 0.20f}, kWhite},
-       {{0.34f, 0.45f, 0.36f}, {0.28f, 0.38f, 0.30f}, kWhite},
-       {{0.56f, 0.57f, 0.60f}, {0.47f, 0.48f, 0.51f}, kWhite}}}},
+     {{{{0.86f, 0.63f, 0.25f}, {0.78f, 0.55f, 0.20f}},
+       {{0.34f, 0.45f, 0.36f}, {0.28f, 0.38f, 0.30f}},
+       {{0.56f, 0.57f, 0.60f}, {0.47f, 0.48f, 0.51f}}}}},
     {"jacket", designJacket,
-     {{{{0.18f, 0.21f, 0.31f}, {0.15f, 0.17f, 0.26f}, kWhite},
-       {{0.33f, 0.33f, 0.35f}, {0.28f, 0.28f, 0.30f}, kWhite},
-       {{0.45f, 0.35f, 0.27f}, {0.38f, 0.29f, 0.22f}, kWhite}}}},
+     {{{{0.18f, 0.21f, 0.31f}, {0.15f, 0.17f, 0.26f}},
+       {{0.33f, 0.33f, 0.35f}, {0.28f, 0.28f, 0.30f}},
+       {{0.45f, 0.35f, 0.27f}, {0.38f, 0.29f, 0.22f}}}}},
     {"dress", designDress,
-     {{{{0.72f, 0.22f, 0.31f}, {0.34f, 0.10f, 0.15f}, kWhite},
-       {{0.20f, 0.42f, 0.55f}, {0.90f, 0.86f, 0.78f}, kWhite},
-       {{0.91f, 0.75f, 0.34f}, {0.45f, 0.30f, 0.16f}, kWhite}}}},
+     {{{{0.72f, 0.22f, 0.31f}, {0.34f, 0.10f, 0.15f}},
+       {{0.20f, 0.42f, 0.55f}, {0.90f, 0.86f, 0.78f}},
+       {{0.91f, 0.75f, 0.34f}, {0.45f, 0.30f, 0.16f}}}}},
     {"jeans", designJeans,
-     {{{{0.23f, 0.33f, 0.50f}, {0.17f, 0.25f, 0.39f}, kWhite},
-       {{0.36f, 0.47f, 0.62f}, {0.29f, 0.39f, 0.53f}, kWhite},
-       {{0.16f, 0.19f, 0.27f}, kLeather, kWhite}}}},
+     {{{{0.23f, 0.33f, 0.50f}, {0.17f, 0.25f, 0.39f}},
+       {{0.36f, 0.47f, 0.62f}, {0.29f, 0.39f, 0.53f}},
+       {{0.16f, 0.19f, 0.27f}, kLeather}}}},
     {"trousers", designTrousers,
-     {{{{0.18f, 0.21f, 0.31f}, kLeather, kWhite},
-       {{0.30f, 0.30f, 0.32f}, kBlack, kWhite},
-       {{0.40f, 0.31f, 0.24f}, kLeather, kWhite}}}},
+     {{{{0.18f, 0.21f, 0.31f}, kLeather},
+       {{0.30f, 0.30f, 0.32f}, kBlack},
+       {{0.40f, 0.31f, 0.24f}, kLeather}}}},
     {"shorts", designShorts,
-     {{{{0.22f, 0.25f, 0.31f}, kWhite, kWhite},
-       {{0.62f, 0.54f, 0.41f}, {0.55f, 0.47f, 0.35f}, kWhite},
-       {{0.27f, 0.36f, 0.52f}, kWhite, kWhite}}}},
+     {{{{0.22f, 0.25f, 0.31f}, kWhite},
+       {{0.62f, 0.54f, 0.41f}, {0.55f, 0.47f, 0.35f}},
+       {{0.27f, 0.36f, 0.52f}, kWhite}}}},
     {"leggings", designLeggings,
-     {{{{0.15f, 0.15f, 0.18f}, {0.80f, 0.36f, 0.42f}, kWhite},
-       {{0.22f, 0.27f, 0.38f}, {0.42f, 0.66f, 0.72f}, kWhite},
-       {{0.33f, 0.17f, 0.30f}, {0.75f, 0.50f, 0.66f}, kWhite}}}},
+     {{{{0.15f, 0.15f, 0.18f}, {0.80f, 0.36f, 0.42f}},
+       {{0.22f, 0.27f, 0.38f}, {0.42f, 0.66f, 0.72f}},
+       {{0.33f, 0.17f, 0.30f}, {0.75f, 0.50f, 0.66f}}}}},
     {"skirt", designSkirt,
-     {{{{0.20f, 0.21f, 0.25f}, kWhite, kWhite},
-       {{0.35f, 0.28f, 0.24f}, kWhite, kWhite},
-       {{0.17f, 0.22f, 0.34f}, kWhite, kWhite}}}},
+     {{{{0.20f, 0.21f, 0.25f}, kWhite},
+       {{0.35f, 0.28f, 0.24f}, kWhite},
+       {{0.17f, 0.22f, 0.34f}, kWhite}}}},
     {"sneakers", designSneakers,
-     {{{kWhite, {0.80f, 0.80f, 0.78f}, kWhite},
-       {{0.76f, 0.27f, 0.24f}, kWhite, kWhite},
-       {{0.22f, 0.25f, 0.32f}, kWhite, kWhite}}}},
+     {{{kWhite, {0.80f, 0.80f, 0.78f}},
+       {{0.76f, 0.27f, 0.24f}, kWhite},
+       {{0.22f, 0.25f, 0.32f}, kWhite}}}},
     {"oxfords", designOxfords,
-     {{{kBlack, {0.06f, 0.06f, 0.06f}, kWhite},
-       {{0.36f, 0.21f, 0.13f}, {0.13f, 0.08f, 0.06f}, kWhite},
-       {{0.24f, 0.13f, 0.10f}, {0.08f, 0.05f, 0.05f}, kWhite}}}},
+     {{{kBlack, {0.06f, 0.06f, 0.06f}},
+       {{0.36f, 0.21f, 0.13f}, {0.13f, 0.08f, 0.06f}},
+       {{0.24f, 0.13f, 0.10f}, {0.08f, 0.05f, 0.05f}}}}},
     {"flats", designFlats,
-     {{{{0.55f, 0.12f, 0.16f}, kBlack, kWhite},
-       {kBlack, {0.06f, 0.06f, 0.06f}, kWhite},
-       {{0.62f, 0.45f, 0.32f}, kLeather, kWhite}}}},
+     {{{{0.55f, 0.12f, 0.16f}, kBlack},
+       {kBlack, {0.06f, 0.06f, 0.06f}},
+       {{0.62f, 0.45f, 0.32f}, kLeather}}}},
     {"cap", designCap,
-     {{{{0.20f, 0.28f, 0.45f}, {0.16f, 0.22f, 0.37f}, kWhite},
-       {{0.70f, 0.22f, 0.20f}, {0.58f, 0.17f, 0.16f}, kWhite},
-       {{0.25f, 0.27f, 0.26f}, {0.85f, 0.62f, 0.25f}, kWhite}}}},
+     {{{{0.20f, 0.28f, 0.45f}, {0.16f, 0.22f, 0.37f}},
+       {{0.70f, 0.22f, 0.20f}, {0.58f, 0.17f, 0.16f}},
+       {{0.25f, 0.27f, 0.26f}, {0.85f, 0.62f, 0.25f}}}}},
 }};
 
 struct HairEntry {
@@ -148,7 +148,7 @@ std::vector<OutfitPlan> outfitPlans(Sex sex) {
 GarmentDesign designGarment(const Figure& figure, const PersonColors& colors, std::uint64_t seed,
                             std::string_view name) {
   for (const HairEntry& hair : kHair) {
-    if (hair.name == name) return hair.design(figure, {colors.hair, Vec3(0.35f, 0.05f, 0.06f), colors.hair});
+    if (hair.name == name) return hair.design(figure, {colors.hair, Vec3(0.35f, 0.05f, 0.06f)});
   }
   for (std::size_t i = 0; i < kGarments.size(); ++i) {
     const GarmentEntry& garment = kGarments[i];
@@ -157,8 +157,7 @@ GarmentDesign designGarment(const Figure& figure, const PersonColors& colors, st
     const std::uint64_t index = name == "trousers" || name == "jacket" || name == "skirt" ? 0 : i + 1;
     const std::size_t row = RandomStream(seed, kGarmentStream).bits32(index) % garment.colorways.size();
     const Colorway& colorway = garment.colorways[row];
-    return garment.design(figure, {linearFromSrgb(colorway.main), linearFromSrgb(colorway.second),
-                                   linearFromSrgb(colorway.third)});
+    return garment.design(figure, {linearFromSrgb(colorway.main), linearFromSrgb(colorway.second)});
   }
   ENSEMBLE_CHECK(!"a garment of a plan");
   return {};

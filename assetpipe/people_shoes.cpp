@@ -22,7 +22,7 @@ void cutShoe(GarmentDesign& design, const Figure& f, const ShoeCut& cut) {
     // The footprint, seen a little above the ground, drawn down to the sole's underside.
     const float print = f.foot({p.x, 0.016f * s, p.z}) - cut.sole_out * s;
     const float middle = 0.5f * (cut.sole_low + cut.sole_high) * s, half = 0.5f * (cut.sole_high - cut.sole_low) * s;
-    return smoothMax(print, std::abs(p.y - middle) - half, 0.006f * s);
+    return smoothMax(print, std::abs(p.y - middle) - half, 0.008f * s);
   };
   design.shell = [&f, cut, s, sole](const Vec3& p) {
     const float foot = smoothMin(f.foot(p), f.leg(p), 0.018f * s) - cut.offset * s;
@@ -39,18 +39,18 @@ void cutShoe(GarmentDesign& design, const Figure& f, const ShoeCut& cut) {
   design.binding = [&f](const Vec3& p) { return bodyBinding(f, p); };
   design.low = Vec3(-0.25f * s, -0.03f * s, -0.16f * s);
   design.high = Vec3(0.25f * s, 0.20f * s, 0.26f * s);
-  design.cell = 0.004f;
+  design.cell = 0.0032f;
   design.hem = 0.005f;
   design.cover_margin = 0.012f;
-  design.face_count = 800;
+  design.face_count = 900;
 }
 
 }  // namespace
 
 GarmentDesign designSneakers(const Figure& f, const Palette& palette) {
   GarmentDesign design;
-  design.name = "cloth.sneakers";
-  design.materials = {clothMaterial("cloth.sneakers", palette.main), clothMaterial("cloth.sneakers.sole", palette.second)};
+  design.name = "shoes.sneakers";
+  design.materials = {clothMaterial("shoes.sneakers", palette.main), clothMaterial("shoes.sneakers.sole", palette.second)};
   ShoeCut cut;
   cut.offset = 0.008f;
   cut.shaft_y = 0.088f;
@@ -62,8 +62,8 @@ GarmentDesign designSneakers(const Figure& f, const Palette& palette) {
 
 GarmentDesign designOxfords(const Figure& f, const Palette& palette) {
   GarmentDesign design;
-  design.name = "cloth.oxfords";
-  design.materials = {clothMaterial("cloth.oxfords", palette.main), clothMaterial("cloth.oxfords.sole", palette.second)};
+  design.name = "shoes.oxfords";
+  design.materials = {clothMaterial("shoes.oxfords", palette.main), clothMaterial("shoes.oxfords.sole", palette.second)};
   ShoeCut cut;
   cut.offset = 0.008f;
   cut.shaft_y = 0.082f;
@@ -76,8 +76,8 @@ GarmentDesign designOxfords(const Figure& f, const Palette& palette) {
 
 GarmentDesign designFlats(const Figure& f, const Palette& palette) {
   GarmentDesign design;
-  design.name = "cloth.flats";
-  design.materials = {clothMaterial("cloth.flats", palette.main), clothMaterial("cloth.flats.sole", palette.second)};
+  design.name = "shoes.flats";
+  design.materials = {clothMaterial("shoes.flats", palette.main), clothMaterial("shoes.flats.sole", palette.second)};
   ShoeCut cut;
   cut.offset = 0.004f;
   cut.shaft_y = 0.046f;

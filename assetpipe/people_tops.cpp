@@ -103,7 +103,7 @@ float hipHeight(const Figure& f) { return f.joints[kThigh].y; }
 GarmentDesign designTshirt(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.tshirt";
-  design.materials = {clothMaterial("cloth.tshirt", palette.main), clothMaterial("cloth.tshirt.rib", palette.second)};
+  design.materials = {clothMaterial("cloth.tshirt", palette.main)};
   TopCut cut;
   cut.offset = 0.010f;
   cut.hem_y = hipHeight(f) - 0.030f * f.scale;
@@ -111,9 +111,11 @@ GarmentDesign designTshirt(const Figure& f, const Palette& palette) {
   cut.neck_wide = 0.080f;
   cut.sleeve = 0.66f;
   cutTop(design, f, cut, tshirtDrape(f, 0.004f), sleeves(f, 0.060f, 0.060f, 0.0f));
-  const Field rib = [&f, cut](const Vec3& p) { return topNeck(f, p, cut, 0.014f); };
-  design.seams = {rib};
-  design.label = [rib](const Vec3& p) { return static_cast<std::uint8_t>(rib(p) > 0.0f ? 1 : 0); };
+  // A ribbed band around the neck.
+  design.shell = [&f, cut, inner = design.shell](const Vec3& p) {
+    const float s = f.scale;
+    return inner(p) - 0.0025f * s * smoothStep(-0.002f * s, 0.002f * s, topNeck(f, p, cut, 0.014f));
+  };
   design.face_count = 1500;
   return design;
 }
@@ -172,7 +174,7 @@ GarmentDesign designBlouse(const Figure& f, const Palette& palette) {
 GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.hoodie";
-  design.materials = {clothMaterial("cloth.hoodie", palette.main), clothMaterial("cloth.hoodie.trim", palette.second)};
+  design.materials = {clothMaterial("cloth.hoodie", palette.main), clothMaterial("cloth.hoodie.cuffs", palette.second)};
   const float s = f.scale;
   TopCut cut;
   cut.offset = 0.016f;
@@ -186,12 +188,8 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   SolidGroup hood;
   hood.join(Solid::ellipsoid(at(0.0f, 0.005f, -0.098f), Vec3(0.088f * wide, 0.058f, 0.042f) * s), 0.0f);
   hood.join(Solid::roundCone(at(0.055f, 0.022f, -0.085f), at(0.088f, 0.010f, -0.020f), 0.036f * s, 0.026f * s), 0.03f * s);
-  hood.join(Solid::roundCone(at(0.088f, 0.010f, -0.020f), at(0.050f, -0.038f, 0.060f), 0.024f * s, 0.016f * s), 0.02f * s);
+  hood.join(Solid::roundCone(at(0.088f, 0.010f, -0.020f), at(0.042f, -0.040f, 0.050f), 0.024f * s, 0.009f * s), 0.02f * s);
   cutTop(design, f, cut, hanging, sleeves(f, 0.062f, 0.056f, 0.046f));
-  const Field pocket = [&f, s, hem = cut.hem_y](const Vec3& p) {
-    const float up = (p.y - hem) / s;
-    return std::min({(0.125f - 0.30f * std::max(up - 0.12f, 0.0f)) * s - std::abs(p.x), p.z, (up - 0.055f) * s, (0.205f - up) * s});
-  };
   const float head_limit = 0.060f;
   const Field body_opening = design.opening;
   design.opening = [&f, body_opening, hood, head_limit, s](const Vec3& p) {
@@ -200,17 +198,15 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
     return std::max(std::min(body_opening(p), std::max(on_hood, neckline(f, p, head_limit, 1.0f))),
                     p.y - (f.joints[kNeck].y + 0.09f * s));
   };
-  design.shell = [inner = design.shell, hood, pocket, s](const Vec3& p) {
-    const float cloth = smoothMin(inner(p), hood.distance(toLeft(p)), 0.012f * s);
-    return cloth - 0.005f * s * smoothStep(-0.004f * s, 0.004f * s, pocket(p));
-  };
   const Field cuffs = [&f, cut, s](const Vec3& p) {
     return std::max(cut.hem_y + 0.045f * s - p.y, sleeveEnd(f, p, cut.sleeve) + 0.045f * s);
   };
-  design.seams = {cuffs, pocket};
-  design.label = [cuffs, pocket](const Vec3& p) {
-    return static_cast<std::uint8_t>(cuffs(p) > 0.0f || pocket(p) > 0.0f ? 1 : 0);
+  design.shell = [inner = design.shell, hood, cuffs, s](const Vec3& p) {
+    const float cloth = smoothMin(inner(p), hood.distance(toLeft(p)), 0.012f * s);
+    return cloth + 0.005f * s * smoothStep(-0.003f * s, 0.006f * s, cuffs(p));  // which draw the cloth in
   };
+  design.seams = {cuffs};
+  design.label = [cuffs](const Vec3& p) { return static_cast<std::uint8_t>(cuffs(p) > 0.0f ? 1 : 0); };
   design.face_count = 1900;
   return design;
 }
@@ -218,7 +214,8 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
 GarmentDesign designJacket(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.jacket";
-  design.materials = {clothMaterial("cloth.jacket", palette.main), clothMaterial("cloth.jacket.lapel", palette.second)};
+  // One name: a tint that replaces the colour makes cloth and lapels alike.
+  design.materials = {clothMaterial("cloth.jacket", palette.main), clothMaterial("cloth.jacket", palette.second)};
   const float s = f.scale;
   TopCut cut;
   cut.offset = 0.017f;

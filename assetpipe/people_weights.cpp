@@ -195,8 +195,8 @@ SkinBinding skirtBinding(const Figure& figure, const Vec3& p, float loose) {
   Weights weights = Weigher(figure, p).run();
   for (float& weight : weights) weight *= 1.0f - below_waist;
   const float down = smoothStep(-0.05f * s, glm::mix(0.06f, 0.26f, loose) * s, figure.joints[kThigh].y - p.y);
-  const float to_legs = below_waist * down * (1.0f - 0.30f * loose);
-  const float half = glm::mix(0.05f, 0.13f, loose) * s;
+  const float to_legs = below_waist * down * (1.0f - 0.45f * loose);
+  const float half = glm::mix(0.045f, 0.17f, loose) * s;
   const float left_side = smoothStep(-half, half, p.x);
   weights[kThigh] += to_legs * left_side;
   weights[kThigh + kRightLeg] += to_legs * (1.0f - left_side);

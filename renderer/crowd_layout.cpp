@@ -8,7 +8,8 @@ namespace {
 constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
 constexpr std::initializer_list<vk::DescriptorType> kViewBindings = {
     vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eCombinedImageSampler};
-constexpr std::initializer_list<vk::DescriptorType> kCrowdBindings = {kStorage, kStorage, kStorage, kStorage};
+constexpr std::initializer_list<vk::DescriptorType> kCrowdBindings = {
+    kStorage, vk::DescriptorType::eUniformTexelBuffer, kStorage, kStorage};
 constexpr std::initializer_list<vk::DescriptorType> kAssetBindings = {kStorage, kStorage, kStorage, kStorage,
                                                                       kStorage};
 constexpr auto kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;

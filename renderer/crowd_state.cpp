@@ -74,8 +74,9 @@ void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std
     chunk.characters = gpu::Buffer(device, chunk.count * sizeof(GpuCharacter), Usage::eStorageBuffer,
                                    gpu::Buffer::Kind::kUpload, fmt::format("a buffer of {} people", chunk.count));
     std::copy_n(characters_.begin() + chunk.first, chunk.count, chunk.characters.mapped<GpuCharacter>().begin());
-    chunk.palette = gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer,
+    chunk.palette = gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
                                 gpu::Buffer::Kind::kDevice, fmt::format("the poses of {} people", chunk.count));
+    chunk.palette_view = chunk.palette.makeTexelView(device);
   }
 }
 
@@ -128,7 +129,7 @@ void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) const {
     commands.dispatch(std::min(chunks_[i].count, kGroupsX), (chunks_[i].count + kGroupsX - 1) / kGroupsX, 1);
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
-                     Stage::eVertexShader, vk::AccessFlagBits2::eShaderStorageRead);
+                     Stage::eVertexShader, vk::AccessFlagBits2::eShaderSampledRead);
 }
 
 }  // namespace ensemble

@@ -33,7 +33,7 @@ QueueBuffers::QueueBuffers(gpu::Device& device, const CrowdLayout& layout, const
     chunk.visible.reserve(people.count);
     chunk.batches.reserve(item_count);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_CHARACTERS, people.characters);
-    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_PALETTE, people.palette);
+    gpu::writeTexelBuffer(device, sets_[i], ENSEMBLE_BINDING_PALETTE, people.palette_view);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_QUEUE, chunk.entries);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_DRAWS, chunk.draws);
   }

@@ -52,9 +52,8 @@ Sphere withShadow(const Sphere& sphere, Vec3 to_sun) {
 }
 
 std::uint32_t shadowMapSize(const View& view) {
-  const float wanted = 1.3f * static_cast<float>(std::max(view.width, view.height));
   std::uint32_t size = 512;
-  while (size < 4096 && static_cast<float>(size) < wanted) size *= 2;
+  while (size < 4096 && size < std::max(view.width, view.height)) size *= 2;
   return size;
 }
 

@@ -46,6 +46,6 @@ if [ -f "$cache" ] && ! { grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$project" "$c
 fi
 
 say "Building $build/ensemble ($type, $job_count at once)"
-cmake -S "$project" -B "$build" "${options[@]}" >&2 || fail "configuring failed; CMake's message is above"
+cmake --log-level=WARNING -S "$project" -B "$build" "${options[@]}" >&2 || fail "configuring failed; CMake's message is above"
 ninja -C "$build" -j "$job_count" >&2 || fail "the build failed; the compiler's message is above"
 note "Done: $build/ensemble"

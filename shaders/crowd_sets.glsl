@@ -4,9 +4,9 @@ layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform
 layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_CHARACTERS, std430) readonly buffer Characters {
   GpuCharacter characters[];
 };
-layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_PALETTE, std430) readonly buffer Palette {
-  vec4 palette[];  // world_from_model of each person's joints: three rows each
-};
+// world_from_model of each person's joints: three rows each. A texel buffer: where shaders run on the
+// CPU it is read faster than a storage buffer.
+layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_PALETTE) uniform samplerBuffer palette;
 layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_QUEUE, std430) readonly buffer Queue {
   uint queue[];  // characters, one sub-mesh's queue after the other
 };

@@ -14,12 +14,12 @@ struct WorldFromModel {
 WorldFromModel blendedJoints(uint first_joint) {
   uvec4 at = (uvec4(first_joint) + joints) * 3u;
   precise WorldFromModel m;
-  m.row_0 = palette[at.x] * weights.x + palette[at.y] * weights.y + palette[at.z] * weights.z +
-            palette[at.w] * weights.w;
-  m.row_1 = palette[at.x + 1] * weights.x + palette[at.y + 1] * weights.y + palette[at.z + 1] * weights.z +
-            palette[at.w + 1] * weights.w;
-  m.row_2 = palette[at.x + 2] * weights.x + palette[at.y + 2] * weights.y + palette[at.z + 2] * weights.z +
-            palette[at.w + 2] * weights.w;
+  m.row_0 = texelFetch(palette, int(at.x)) * weights.x + texelFetch(palette, int(at.y)) * weights.y + texelFetch(palette, int(at.z)) * weights.z +
+            texelFetch(palette, int(at.w)) * weights.w;
+  m.row_1 = texelFetch(palette, int(at.x + 1)) * weights.x + texelFetch(palette, int(at.y + 1)) * weights.y + texelFetch(palette, int(at.z + 1)) * weights.z +
+            texelFetch(palette, int(at.w + 1)) * weights.w;
+  m.row_2 = texelFetch(palette, int(at.x + 2)) * weights.x + texelFetch(palette, int(at.y + 2)) * weights.y + texelFetch(palette, int(at.z + 2)) * weights.z +
+            texelFetch(palette, int(at.w + 2)) * weights.w;
   return m;
 }
 

@@ -45,6 +45,18 @@ void writeBuffer(const Device& device, vk::DescriptorSet set, std::uint32_t bind
                                        nullptr);
 }
 
+void writeTexelBuffer(const Device& device, vk::DescriptorSet set, std::uint32_t binding,
+                      const vk::raii::BufferView& view) {
+  const vk::BufferView handle = *view;
+  device.handle().updateDescriptorSets(
+      vk::WriteDescriptorSet{.dstSet = set,
+                             .dstBinding = binding,
+                             .descriptorCount = 1,
+                             .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                             .pTexelBufferView = &handle},
+      nullptr);
+}
+
 void writeImage(const Device& device, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
                 const vk::raii::Sampler* sampler, vk::ImageLayout layout) {
   const vk::DescriptorImageInfo info{

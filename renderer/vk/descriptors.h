@@ -32,6 +32,8 @@ class DescriptorSets {
 
 void writeBuffer(const Device& device, vk::DescriptorSet set, std::uint32_t binding, const Buffer& buffer,
                  vk::DescriptorType type = vk::DescriptorType::eStorageBuffer);
+void writeTexelBuffer(const Device& device, vk::DescriptorSet set, std::uint32_t binding,
+                      const vk::raii::BufferView& view);
 /// @param sampler null for a storage image
 void writeImage(const Device& device, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
                 const vk::raii::Sampler* sampler, vk::ImageLayout layout);
