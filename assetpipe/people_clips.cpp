@@ -161,7 +161,8 @@ class FootPath {
     const Vec3 off_speed = (off.ankle - stance(kToeOff - kEps).ankle) / kEps * span;
     const Vec3 strike_speed = (stance(kEps).ankle - strike.ankle) / kEps * span;
     place.ankle = hermite(off.ankle, off_speed, strike.ankle, strike_speed, u);
-    place.ankle.y += 16.0f * u * u * (1.0f - u) * (1.0f - u) * kLift * s_;
+    // Up at once, so that the toes are clear of the ground before they swing forward.
+    place.ankle.y += (11.0f * u * u + 2.4f * u) * (1.0f - u) * (1.0f - u) * kLift * s_;
     const float off_turn = (off.pitch - stance(kToeOff - kEps).pitch) / kEps * span;
     place.pitch = hermite(off.pitch, 0.55f * off_turn, strike.pitch, 0.0f, u);
     place.toe_pitch = std::lerp(off.toe_pitch, place.pitch, smoothStep(0.0f, 0.45f, u));

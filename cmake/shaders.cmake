@@ -8,7 +8,7 @@ function(ensemble_shader target file symbol)
   add_custom_command(
     OUTPUT ${header}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/spirv
-    COMMAND Vulkan::glslangValidator --target-env vulkan1.3 -Od -g0 --vn ${symbol}
+    COMMAND Vulkan::glslangValidator --quiet --target-env vulkan1.3 -Od --vn ${symbol}
             -I${PROJECT_SOURCE_DIR} -o ${header} ${source}
     DEPENDS ${source} ${shared}
     COMMENT "Shader ${file}" VERBATIM)

@@ -86,6 +86,9 @@ struct Renderer::Impl {
         device({.validate = renderer_options.validate, .memory_limit = renderer_options.memory_limit}) {
     options.max_buffer_bytes =
         std::min<std::uint64_t>(options.max_buffer_bytes, device.limits().maxStorageBufferRange);
+    // The palette is read as texels.
+    options.max_buffer_bytes =
+        std::min(options.max_buffer_bytes, sizeof(vec4) * std::uint64_t{device.limits().maxTexelBufferElements});
   }
 
   void load(const Scene& scene, std::span<const Wardrobe> wardrobes) {
