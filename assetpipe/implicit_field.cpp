@@ -112,13 +112,13 @@ float hermite(const LoftRow& row, const LoftRow& next, const LoftRow& slope, con
 
 }  // namespace
 
-Solid Solid::loft(const LoftFrame& frame, std::vector<LoftRow> rows, float exponent) {
+Solid Solid::loft(const LoftFrame& frame, std::vector<LoftRow> rows, float boxiness) {
   ENSEMBLE_CHECK(rows.size() >= 2u);
   Solid solid;
   solid.kind_ = Kind::kLoft;
   solid.a_ = frame.origin;
   solid.local_from_world_ = glm::transpose(frame.world_from_local);
-  solid.exponent_ = exponent;
+  solid.boxiness_ = boxiness;
   solid.slopes_.resize(rows.size());
   for (const auto column : {&LoftRow::center_x, &LoftRow::center_z, &LoftRow::side, &LoftRow::front,
                             &LoftRow::back}) {
@@ -132,8 +132,20 @@ Solid Solid::loft(const LoftFrame& frame, std::vector<LoftRow> rows, float expon
   const float half = 0.5f * (rows.back().along - rows.front().along);
   solid.center_ = frame.origin + frame.world_from_local[1] * (rows.front().along + half);
   solid.radius_ = half + 1.5f * widest;
+  solid.length_ = 2.0f * half;
+  solid.axis_ = frame.world_from_local[1];
+  solid.widest_ = 1.5f * widest;
   solid.rows_ = std::move(rows);
   return solid;
+}
+
+float Solid::lowerBound(const Vec3& position) const {
+  if (kind_ != Kind::kLoft) return glm::distance(position, center_) - radius_;
+  // A capsule around the loft is much tighter than a sphere.
+  const Vec3 offset = position - center_;
+  const float half = 0.5f * length_;
+  const float along = std::clamp(glm::dot(offset, axis_), -half, half);
+  return glm::length(offset - along * axis_) - widest_;
 }
 
 float Solid::distance(const Vec3& position) const {
@@ -182,17 +194,17 @@ float Solid::loftDistance(const Vec3& position) const {
   const float w = std::abs(z) / depth;
   const float cap = std::min(side, 0.5f * (front + back));
   const float y = std::abs(local.y - along) / cap;
-  // The super-ellipse's level is 1 on the surface; divided by its gradient it is a distance.
-  float ring, slope_x, slope_w;
-  if (exponent_ == 2.0f) {
-    ring = std::sqrt(x * x + w * w);
-    slope_x = x;
-    slope_w = w;
-  } else {
-    ring = std::pow(std::pow(x, exponent_) + std::pow(w, exponent_), 1.0f / exponent_);
-    const float base = ring > 1e-6f ? ring : 1.0f;
-    slope_x = base * std::pow(x / base, exponent_ - 1.0f);
-    slope_w = base * std::pow(w / base, exponent_ - 1.0f);
+  // A mean of the 2-norm (an ellipse) and the 4-norm (a rounded rectangle); its level is 1 on the
+  // surface, and divided by its gradient it is a distance.
+  const float x2 = x * x, w2 = w * w;
+  const float round = std::sqrt(x2 + w2);
+  float ring = round, slope_x = x, slope_w = w;
+  if (boxiness_ > 0.0f && round > 1e-6f) {
+    const float box = std::sqrt(std::sqrt(x2 * x2 + w2 * w2));
+    const float box_cube = box * box * box;
+    ring = std::lerp(round, box, boxiness_);
+    slope_x = ring * std::lerp(x / round, x2 * x / box_cube, boxiness_);
+    slope_w = ring * std::lerp(w / round, w2 * w / box_cube, boxiness_);
   }
   const float level = std::sqrt(ring * ring + y * y);
   const float slope = glm::length(Vec3(slope_x / side, slope_w / depth, y / cap));

@@ -53,14 +53,14 @@ class Solid {
  public:
   float distance(const Vec3& position) const;
   /// No point of the solid is nearer than this (up to the error of the first-order distances).
-  float lowerBound(const Vec3& position) const { return glm::distance(position, center_) - radius_; }
+  float lowerBound(const Vec3& position) const;
 
   /// A sphere swept from a to b while its radius goes from radius_a to radius_b.
   static Solid roundCone(const Vec3& a, const Vec3& b, float radius_a, float radius_b);
   static Solid ellipsoid(const Vec3& center, const Vec3& radii, const Mat3& world_from_local = Mat3(1.0f));
-  /// Elliptic cross-sections interpolated smoothly, at least two, `along` ascending; exponent 2 is
-  /// an ellipse, more is boxier. Beyond its ends it closes with half-ellipsoids.
-  static Solid loft(const LoftFrame& frame, std::vector<LoftRow> rows, float exponent = 2.0f);
+  /// Elliptic cross-sections interpolated smoothly, at least two, `along` ascending. `boxiness` goes
+  /// from 0, an ellipse, to 1, nearly a rectangle. Beyond its ends it closes with half-ellipsoids.
+  static Solid loft(const LoftFrame& frame, std::vector<LoftRow> rows, float boxiness = 0.0f);
 
  private:
   enum class Kind : std::uint8_t { kRoundCone, kEllipsoid, kLoft };
@@ -78,7 +78,8 @@ class Solid {
   Mat3 local_from_world_{1.0f};
   std::vector<LoftRow> rows_;
   std::vector<LoftRow> slopes_;  // d row / d along, for the cubic interpolation
-  float exponent_ = 2.0f;
+  float boxiness_ = 0.0f;
+  float widest_ = 0.0f;
 };
 
 /// Solids joined one after the other by smooth unions, or carved out.

@@ -142,7 +142,7 @@ GarmentDesign designSkirt(const Figure& f, const Palette& palette) {
                            {hip - 0.20f * s, 0, 0, 0.178f * t, 0.116f * t, 0.128f * t},
                            {hip - 0.04f * s, 0, 0, 0.172f * t, 0.104f * t, 0.118f * t},
                            {waist + 0.02f * s, 0, 0, 0.130f * t, 0.090f * t, 0.082f * t}},
-                          2.2f),
+                          0.18f),
               0.0f);
   design.shell = [&f, column, s](const Vec3& p) {
     return smoothMin(lowerBody(f, p), column.distance(p), 0.03f * s) - 0.008f;

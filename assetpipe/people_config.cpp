@@ -44,7 +44,7 @@ std::vector<std::string> readOutfits(const YamlValue& value, Sex sex) {
   for (const YamlValue& item : value.items("a list of outfits")) {
     const std::string name = item.text("an outfit's name");
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      item.fail(item.description() + ", an outfit that is not known",
+      item.fail(item.description() + ", which is no outfit",
                 "did you mean " + quotedList(nearestNames(name, known)) + "? There are " + quotedList(known, "and"));
     }
     if (std::find(chosen.begin(), chosen.end(), name) != chosen.end()) {

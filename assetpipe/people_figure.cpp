@@ -86,7 +86,7 @@ class Builder {
     return Solid::ellipsoid(s(center), s(radii), turn);
   }
   /// Rows in reference metres; thickness multiplied by `thick`.
-  Solid loft(const LoftFrame& frame, std::vector<LoftRow> rows, float thick, float exponent = 2.0f) const {
+  Solid loft(const LoftFrame& frame, std::vector<LoftRow> rows, float thick, float boxiness = 0.0f) const {
     for (LoftRow& row : rows) {
       row.along = s(row.along);
       row.center_x = s(row.center_x);
@@ -95,7 +95,7 @@ class Builder {
       row.front = s(row.front * thick);
       row.back = s(row.back * thick);
     }
-    return Solid::loft(frame, std::move(rows), exponent);
+    return Solid::loft(frame, std::move(rows), boxiness);
   }
 
   void placeJoints() {
@@ -186,7 +186,7 @@ class Builder {
     }
     for (std::size_t i = 0; i < 5; ++i) rows[i].front *= belly;
     SolidGroup& torso = figure_.torso_solids;
-    torso.join(loft(frame, rows, trunk_, 2.3f), 0.0f);
+    torso.join(loft(frame, rows, trunk_, 0.27f), 0.0f);
     const Vec3 shoulder = m_.shoulder;
     for (const float side : {1.0f, -1.0f}) {
       const Vec3 flip(side, 1.0f, 1.0f);
@@ -305,7 +305,7 @@ class Builder {
                                  {0.098f, 0, 0, 0.0105f, 0.037f, 0.035f}};
     for (LoftRow& row : palm) row.along *= size;
     const float thick = 0.5f * (size + limb_);
-    hand.join(loft(hand_frame_, palm, thick, 2.4f), 0.0f);
+    hand.join(loft(hand_frame_, palm, thick, 0.35f), 0.0f);
     const auto phalanx = [&](const Vec3& a, const Vec3& b, float ra, float rb, float blend) {
       hand.join(Solid::roundCone(a, b, s(ra * thick), s(rb * thick)), s(blend));
     };
@@ -361,7 +361,7 @@ class Builder {
       row.along *= size;
       row.center_z *= size;
     }
-    foot.join(loft(frame, rows, wide, 2.2f), 0.0f);
+    foot.join(loft(frame, rows, wide, 0.18f), 0.0f);
     foot.join(cone(m_.ankle + Vec3(0, 0.03f, 0.003f), m_.ankle + Vec3(0, -0.02f, 0.006f), 0.035f * limb_,
                    0.038f * limb_),
               s(0.03f));

@@ -69,7 +69,8 @@ GarmentDesign designShortHair(const Figure& f, const Palette& palette) {
   hair.join(skullShell(f, {0.012f, 0.062f, 0.022f}, {0.060f, 0.042f, 0.062f}), 0.03f * size);
   design.symmetric = false;
   design.shell = [&f, hair, size](const Vec3& p) {
-    return hair.distance(p) - size * strands(onHead(f, p), 0.0013f);
+    const Vec3 h = onHead(f, p);
+    return hair.distance(p) - size * strands(h, 0.0013f) * smoothStep(-0.065f, -0.025f, h.y);
   };
   design.opening = [&f, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
@@ -166,7 +167,7 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   design.materials.push_back(clothMaterial("cloth.cap.visor", palette.second));
   const float size = f.head_size;
   SolidGroup dome;
-  dome.join(skullShell(f, {0.0f, 0.026f, -0.006f}, {0.0950f, 0.1040f, 0.1150f}), 0.0f);
+  dome.join(skullShell(f, {0.0f, 0.026f, -0.006f}, {0.0925f, 0.1015f, 0.1130f}), 0.0f);
   SolidGroup visor;
   const Mat3 tilt = Mat3(glm::mat3_cast(glm::angleAxis(radians(12.0f), Vec3(1, 0, 0))));
   visor.join(Solid::ellipsoid(fromHead(f, Vec3(0.0f, 0.033f, 0.098f)), Vec3(0.079f, 0.0075f, 0.090f) * size, tilt), 0.0f);
@@ -181,7 +182,7 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   const Field rim = [dome, size](const Vec3& p) { return dome.distance(p) - 0.003f * size; };
   design.seams = {rim};
   design.label = [rim](const Vec3& p) { return static_cast<std::uint8_t>(rim(p) > 0.0f ? 1 : 0); };
-  design.cell = 0.004f;
+  design.cell = 0.003f;
   design.hem = 0.006f;
   design.face_count = 700;
   return design;

@@ -36,7 +36,7 @@ Solid drape(const Figure& f, std::vector<LoftRow> rows) {
     row.front *= f.scale * f.trunk;
     row.back *= f.scale * f.trunk;
   }
-  return Solid::loft({Vec3(0.0f), Mat3(1.0f)}, std::move(rows), 2.3f);
+  return Solid::loft({Vec3(0.0f), Mat3(1.0f)}, std::move(rows), 0.27f);
 }
 
 /// Sleeves that stand off the arm: radii at the shoulder, the elbow and the wrist.
@@ -177,18 +177,19 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   design.materials = {clothMaterial("cloth.hoodie", palette.main), clothMaterial("cloth.hoodie.cuffs", palette.second)};
   const float s = f.scale;
   TopCut cut;
-  cut.offset = 0.016f;
+  cut.offset = 0.019f;
   cut.hem_y = hipHeight(f) - 0.010f * s;
-  cut.neck_rise = 0.022f;
+  cut.neck_rise = 0.006f;
+  cut.neck_wide = 0.084f;
   cut.sleeve = 1.97f;
   SolidGroup hanging = tshirtDrape(f, 0.007f);
   // The hood lies behind the neck and comes around to the chest.
   const float neck = f.joints[kNeck].y, wide = f.isFemale() ? 0.86f : 1.0f;
   const auto at = [&](float x, float y, float z) { return Vec3(x * wide * s, neck + y * s, z * s); };
   SolidGroup hood;
-  hood.join(Solid::ellipsoid(at(0.0f, 0.005f, -0.098f), Vec3(0.088f * wide, 0.058f, 0.042f) * s), 0.0f);
-  hood.join(Solid::roundCone(at(0.055f, 0.022f, -0.085f), at(0.088f, 0.010f, -0.020f), 0.036f * s, 0.026f * s), 0.03f * s);
-  hood.join(Solid::roundCone(at(0.088f, 0.010f, -0.020f), at(0.042f, -0.040f, 0.050f), 0.024f * s, 0.009f * s), 0.02f * s);
+  hood.join(Solid::ellipsoid(at(0.0f, -0.004f, -0.104f), Vec3(0.098f * wide, 0.070f, 0.046f) * s), 0.0f);
+  hood.join(Solid::roundCone(at(0.058f, 0.026f, -0.088f), at(0.090f, 0.014f, -0.018f), 0.036f * s, 0.026f * s), 0.03f * s);
+  hood.join(Solid::roundCone(at(0.090f, 0.014f, -0.018f), at(0.042f, -0.040f, 0.050f), 0.024f * s, 0.009f * s), 0.02f * s);
   cutTop(design, f, cut, hanging, sleeves(f, 0.062f, 0.056f, 0.046f));
   const float head_limit = 0.060f;
   const Field body_opening = design.opening;
@@ -203,7 +204,7 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   };
   design.shell = [inner = design.shell, hood, cuffs, s](const Vec3& p) {
     const float cloth = smoothMin(inner(p), hood.distance(toLeft(p)), 0.012f * s);
-    return cloth + 0.005f * s * smoothStep(-0.003f * s, 0.006f * s, cuffs(p));  // which draw the cloth in
+    return cloth + 0.004f * s * smoothStep(-0.003f * s, 0.006f * s, cuffs(p));  // which draw the cloth in
   };
   design.seams = {cuffs};
   design.label = [cuffs](const Vec3& p) { return static_cast<std::uint8_t>(cuffs(p) > 0.0f ? 1 : 0); };
@@ -263,7 +264,9 @@ GarmentDesign designDress(const Figure& f, const Palette& palette) {
                           row(waist - 0.30f * drop, 0.180f, 0.122f, 0.130f), row(waist, 0.124f, 0.088f, 0.080f)}),
              0.0f);
   design.shell = [&f, skirt, s](const Vec3& p) {
-    float value = smoothMin(f.torso(p), f.neck_solids.distance(p), 0.035f * s) - 0.007f;
+    // Straps lie closer than the rest.
+    const float offset = std::lerp(0.007f, 0.0035f, smoothStep(-0.10f * s, -0.02f * s, p.y - f.joints[kUpperArm].y));
+    const float value = smoothMin(f.torso(p), f.neck_solids.distance(p), 0.035f * s) - offset;
     // Folds run down from the waist and grow towards the hem.
     const float fall = smoothStep(0.0f, 0.45f * s, f.joints[kSpine1].y - p.y);
     const float folds = 0.010f * s * fall * std::cos(9.0f * std::atan2(p.x, p.z));

@@ -197,11 +197,10 @@ class Simplifier {
     result.clear();
     for (const std::uint32_t f : faces_of_[v]) {
       for (const std::uint32_t other : mesh_.faces[f]) {
-        if (other != v) result.push_back(other);
+        if (other != v && std::find(result.begin(), result.end(), other) == result.end()) result.push_back(other);
       }
     }
     std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
   }
 
   /// The kind of line that v may slide along, or nothing where lines meet or end: there it stays.

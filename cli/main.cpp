@@ -1,5 +1,7 @@
 // `ensemble`: the table of subcommands, and the one place where errors become exit codes.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -36,6 +38,9 @@ int run(int argc, char** argv) {
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
     return fail(ExitCode::kWrongUsage, std::string(error.what()) + "; see `ensemble --help`");
+  }
+  if (std::fflush(stdout) != 0) {
+    return fail(ExitCode::kFailed, std::string("standard output can't be written: ") + std::strerror(errno));
   }
   return static_cast<int>(ExitCode::kDone);
 }

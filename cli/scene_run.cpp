@@ -20,16 +20,7 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
 
 Scene loadSceneOf(const SceneArguments& arguments) {
   std::vector<SceneOverride> overrides;
-  for (const std::string& text : arguments.overrides) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UsageError({.file = {},
-                        .where = "--set " + text,
-                        .what = "there is no key and value",
-                        .mend = "write key.path=value, e.g. --set crowd.count=200"});
-    }
-    overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
+  for (const std::string& text : arguments.overrides) overrides.push_back(parseSceneOverride(text));
   return loadScene(arguments.scene, overrides);
 }
 

@@ -19,7 +19,7 @@ struct SceneArguments {
 };
 void addSceneOptions(CLI::App& command, SceneArguments& arguments);
 
-/// @throws InputError, UsageError as loadScene; UsageError for an override without `=`
+/// @throws InputError, UsageError as loadScene
 Scene loadSceneOf(const SceneArguments& arguments);
 
 /// The wardrobes of a scene, in its order. @throws as loadWardrobe

@@ -48,7 +48,7 @@ std::filesystem::path folderOf(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-/// Writes all bytes and syncs them; the error number, or 0.
+/// Writes all bytes; the error number, or 0.
 int writeAll(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());
@@ -56,12 +56,29 @@ int writeAll(int descriptor, std::span<const std::byte> bytes) {
     if (written < 0) return errno;
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  return fsync(descriptor) == 0 ? 0 : errno;
+  return 0;
+}
+
+void writeInPlace(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  Descriptor descriptor(open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  if (descriptor.number() < 0) failWriting(file, errno);
+  int error = writeAll(descriptor.number(), bytes);
+  if (!descriptor.closeNow() && error == 0) error = errno;
+  if (error != 0) failWriting(file, error);
 }
 
 }  // namespace
 
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  // Devices and pipes (/dev/stdout) are written to, never replaced; through a symbolic link its target is.
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && std::filesystem::is_other(status)) return writeInPlace(file, bytes);
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(file, ignored))) {
+    const std::filesystem::path target = std::filesystem::weakly_canonical(file, ignored);
+    if (!ignored && target != file) return writeFileAtomically(target, bytes);
+  }
+
   const std::filesystem::path folder = folderOf(file);
   const std::filesystem::path aside =
       folder / ("." + file.filename().string() + "." + std::to_string(getpid()) + ".tmp");
@@ -70,6 +87,7 @@ void writeFileAtomically(const std::filesystem::path& file, std::span<const std:
   Descriptor descriptor(open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (descriptor.number() < 0) failWriting(file, errno);
   int error = writeAll(descriptor.number(), bytes);
+  if (error == 0 && fsync(descriptor.number()) != 0) error = errno;
   if (!descriptor.closeNow() && error == 0) error = errno;
   if (error == 0 && std::rename(aside.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {

@@ -11,7 +11,8 @@
 namespace ensemble {
 
 /// Writes aside, fsyncs, renames over `file`, fsyncs the folder. After any error, kill or full disk
-/// a reader sees the old file or the new one. Leftovers of killed writers are named
+/// a reader sees the old file or the new one. A symbolic link stays, its target is replaced; a
+/// device or pipe is written to as it is. Leftovers of killed writers are named
 /// `.NAME.PID.tmp`. @throws SystemError with the system's reason.
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& file, std::string_view text);

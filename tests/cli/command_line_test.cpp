@@ -84,6 +84,8 @@ TEST_F(CommandLine, WhatCantBeDoneIsOne) {
   const ProgramResult full = run("report w --json /dev/full");
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_THAT(full.err, HasSubstr("ensemble: /dev/full: can't be written: "));
+  const ProgramResult no_output = run("report w 3>&1 >/dev/full 2>&2; exit $?; #");
+  EXPECT_EQ(no_output.exit_code, 1);
 }
 
 TEST_F(CommandLine, TagReportInspectAddRemove) {

@@ -35,6 +35,18 @@ TEST(AtomicFile, KeepsTheOldFileWhenItFails) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
+TEST(AtomicFile, WritesToDevicesAndThroughLinks) {
+  const testing::TemporaryFolder folder;
+  writeFileAtomically("/dev/null", std::string_view("x"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null")) << "the device was replaced";
+  EXPECT_THROW(writeFileAtomically("/dev/full", std::string_view("x")), SystemError);
+  writeFileAtomically(folder / "target", std::string_view("old"));
+  std::filesystem::create_symlink("target", folder / "link");
+  writeFileAtomically(folder / "link", std::string_view("new"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(contentOf(folder / "target"), "new");
+}
+
 TEST(AtomicFile, TellsWhyItCantWrite) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder / "none/a.txt").string();

@@ -2,7 +2,12 @@
 // the renderer can do: hidden faces that show through openings, textures, cut-outs, loose vertices.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "core/clip.h"
+#include "core/image_file.h"
+#include "core/scene.h"
 #include "core/wardrobe.h"
 #include "tests/support/small_people.h"
 

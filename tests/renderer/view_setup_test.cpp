@@ -1,0 +1,132 @@
+#include "renderer/view_setup.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ensemble {
+namespace {
+
+View someView() {
+  View view;
+  view.width = 640;
+  view.height = 480;
+  view.camera = {.position = Vec3(3.0f, 2.0f, 6.0f), .target = Vec3(-1.0f, 0.5f, -2.0f), .fov_y = 0.7f, .near_plane = 0.2f};
+  return view;
+}
+
+TEST(ClipFromWorld, DepthIsNearOverDistanceAndTheTargetIsInTheMiddle) {
+  const View view = someView();
+  const CameraFrame frame = cameraFrame(view.camera);
+  const Mat4 clip_from_world = clipFromWorld(view);
+  const Vec4 target = clip_from_world * Vec4(view.camera.target, 1.0f);
+  EXPECT_NEAR(target.x / target.w, 0.0f, 1e-5f);
+  EXPECT_NEAR(target.y / target.w, 0.0f, 1e-5f);
+  EXPECT_NEAR(target.z / target.w, 0.2f / glm::length(view.camera.target - view.camera.position), 1e-6f);
+  const Vec4 top = clip_from_world * Vec4(view.camera.position + frame.forward + std::tan(0.35f) * frame.up, 1.0f);
+  EXPECT_NEAR(top.y / top.w, -1.0f, 1e-5f) << "y points down";
+  const Vec4 right =
+      clip_from_world * Vec4(view.camera.position + frame.forward + std::tan(0.35f) * 4 / 3 * frame.right, 1.0f);
+  EXPECT_NEAR(right.x / right.w, 1.0f, 1e-5f);
+  const Vec4 infinite = clip_from_world * Vec4(frame.forward, 0.0f);
+  EXPECT_EQ(infinite.z, 0.0f);
+  EXPECT_NEAR(infinite.w, 1.0f, 1e-6f);
+}
+
+TEST(CameraFrame, HoldsForEveryDirection) {
+  for (const Vec3 target : {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 0)}) {
+    SceneCamera camera;
+    camera.position = Vec3(0.0f);
+    camera.target = target;
+    const CameraFrame frame = cameraFrame(camera);
+    EXPECT_NEAR(glm::length(frame.right), 1.0f, 1e-5f);
+    EXPECT_NEAR(glm::length(frame.up), 1.0f, 1e-5f);
+    EXPECT_NEAR(glm::dot(glm::cross(frame.right, frame.up), -frame.forward), 1.0f, 1e-5f);
+  }
+}
+
+TEST(Frustum, TouchesWhatItSees) {
+  const View view = someView();
+  const Frustum frustum = frustumOf(view);
+  const CameraFrame frame = cameraFrame(view.camera);
+  const auto at = [&](float right, float up, float forward) {
+    return view.camera.position + right * frame.right + up * frame.up + forward * frame.forward;
+  };
+  EXPECT_TRUE(frustum.touches({at(0, 0, 5), 0.1f}));
+  EXPECT_TRUE(frustum.touches({at(0, 0, 5000), 0.1f})) << "there is no far plane";
+  EXPECT_FALSE(frustum.touches({at(0, 0, -1), 0.5f}));
+  EXPECT_TRUE(frustum.touches({at(0, 0, -1), 1.5f}));
+  const float edge = 5.0f * std::tan(0.35f);
+  EXPECT_TRUE(frustum.touches({at(0, edge, 5), 0.01f}));
+  EXPECT_FALSE(frustum.touches({at(0, edge + 0.2f, 5), 0.1f}));
+  EXPECT_TRUE(frustum.touches({at(-edge * 4 / 3 - 0.1f, 0, 5), 0.2f}));
+  EXPECT_FALSE(frustum.touches({at(-edge * 4 / 3 - 0.3f, 0, 5), 0.1f}));
+}
+
+TEST(FindVisible, ListsNumbersAscending) {
+  const View view = someView();
+  const std::vector<Sphere> bounds = {{view.camera.target, 1.0f}, {view.camera.position + Vec3(0, 0, 50), 1.0f},
+                                      {view.camera.target + Vec3(0.5f, 0, 0), 1.0f}};
+  std::vector<std::uint32_t> visible = {7, 7};
+  findVisible(frustumOf(view), bounds, visible);
+  EXPECT_THAT(visible, ::testing::ElementsAre(0u, 2u));
+}
+
+TEST(ShadowFit, HoldsTheVisibleAndTheirDepths) {
+  const View view = someView();
+  std::vector<Sphere> bounds;
+  for (int i = 0; i < 20; ++i) bounds.push_back({Vec3(-3.0f + static_cast<float>(i % 5), 0.9f, -6.0f + static_cast<float>(i / 5)), 1.1f});
+  const ShadowFit fit = fitShadowMap(view, bounds);
+  EXPECT_EQ(fit.size, 1024u);
+  for (const Sphere& sphere : bounds) {
+    const Vec4 center = fit.shadow_from_world * Vec4(sphere.center, 1.0f);
+    const float radius = 2.0f * sphere.radius / (fit.texel_side * static_cast<float>(fit.size));
+    EXPECT_LE(std::abs(center.x) + radius, 1.0f + 3.0f / 1024);
+    EXPECT_LE(std::abs(center.y) + radius, 1.0f + 3.0f / 1024);
+    EXPECT_GE(center.z, 0.0f);
+    EXPECT_LE(center.z, 1.0f);
+  }
+  std::vector<std::uint32_t> casters;
+  findCasters(fit, bounds, casters);
+  EXPECT_EQ(casters.size(), bounds.size());
+  bounds.push_back({Vec3(300.0f, 1.0f, 0.0f), 1.0f});
+  findCasters(fit, bounds, casters);
+  EXPECT_EQ(casters.size(), bounds.size() - 1);
+}
+
+// The sun's side is nearer to 1, and a texel of the map is where it was after the crowd moved.
+TEST(ShadowFit, MovesByWholeTexels) {
+  const View view = someView();
+  std::vector<Sphere> bounds = {{view.camera.target, 3.0f}};
+  const ShadowFit before = fitShadowMap(view, bounds);
+  const Vec3 to_sun = -glm::normalize(view.light.direction);
+  const Vec3 point(0.3f, 0.1f, -0.4f);
+  EXPECT_GT((before.shadow_from_world * Vec4(point + to_sun, 1.0f)).z, (before.shadow_from_world * Vec4(point, 1.0f)).z);
+  bounds[0].center += Vec3(0.137f, 0.0f, 0.071f);
+  const ShadowFit after = fitShadowMap(view, bounds);
+  EXPECT_EQ(before.texel_side, after.texel_side);
+  const Vec4 shift = (after.shadow_from_world - before.shadow_from_world) * Vec4(point, 1.0f) * 0.5f * 1024.0f;
+  EXPECT_NEAR(shift.x, std::round(shift.x), 0.02f);
+  EXPECT_NEAR(shift.y, std::round(shift.y), 0.02f);
+  EXPECT_GT(std::abs(shift.x) + std::abs(shift.y), 1.0f);
+}
+
+TEST(ShadowFit, NobodyIsNoTrouble) {
+  const ShadowFit fit = fitShadowMap(someView(), {});
+  EXPECT_GT(fit.texel_side, 0.0f);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) EXPECT_TRUE(std::isfinite(fit.shadow_from_world[column][row]));
+  }
+}
+
+TEST(MakeGpuView, RaysMeetWhatTheMatrixProjects) {
+  const View view = someView();
+  const GpuView gpu = makeGpuView(view, fitShadowMap(view, {}));
+  const Vec2 pixel(123.5f, 345.5f);
+  const Vec3 ray = Vec3(gpu.ray_origin) + pixel.x * Vec3(gpu.ray_x) + pixel.y * Vec3(gpu.ray_y);
+  const Vec4 clip = gpu.clip_from_world * Vec4(view.camera.position + 7.0f * ray, 1.0f);
+  EXPECT_NEAR((clip.x / clip.w + 1.0f) * 320.0f, pixel.x, 1e-2f);
+  EXPECT_NEAR((clip.y / clip.w + 1.0f) * 240.0f, pixel.y, 1e-2f);
+}
+
+}  // namespace
+}  // namespace ensemble
