@@ -1,10 +1,12 @@
 #include "assetpipe/make_people.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <map>
-#include <memory>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "assetpipe/people_body.h"
@@ -72,42 +74,68 @@ class PersonMaker {
   PersonMaker(const PersonMaker&) = delete;
   PersonMaker& operator=(const PersonMaker&) = delete;
 
-  MadePerson run() {
+  RawAsset makeTemplate() const {
+    RawAsset body = asset(bodyNode(mesh_, vertices_, nothing_hidden_), {});
+    body.clips = {toRawClip(skeleton_, makeWalkClip(figure_, skeleton_)),
+                  toRawClip(skeleton_, makeIdleClip(figure_, skeleton_))};
+    return body;
+  }
+
+  MadePerson run(unsigned jobs) {
     MadePerson person;
     person.name = config_.name;
-    person.body = asset(bodyNode(mesh_, vertices_, nothing_hidden_), {});
-    person.body.clips = {toRawClip(skeleton_, makeWalkClip(figure_, skeleton_)),
-                         toRawClip(skeleton_, makeIdleClip(figure_, skeleton_))};
+    person.body = makeTemplate();
     person.walk_speed = walkSpeed(figure_);
-    for (const OutfitPlan& plan : outfitPlans(config_.figure.sex)) {
-      const bool is_wanted =
-          config_.outfits.empty() ||
-          std::find(config_.outfits.begin(), config_.outfits.end(), plan.name) != config_.outfits.end();
-      if (is_wanted) person.outfits.push_back(dress(plan));
-    }
+    std::vector<OutfitPlan> plans = outfitPlans(config_.figure.sex);
+    std::erase_if(plans, [this](const OutfitPlan& plan) {
+      return !config_.outfits.empty() &&
+             std::find(config_.outfits.begin(), config_.outfits.end(), plan.name) == config_.outfits.end();
+    });
+    makeGarments(plans, jobs);
+    for (const OutfitPlan& plan : plans) person.outfits.push_back(dress(plan));
     return person;
   }
 
  private:
-  MadeOutfit dress(const OutfitPlan& plan) {
-    std::vector<const MadeGarment*> garments;
-    garments.push_back(&face_);
-    for (const std::string& name : plan.garments) garments.push_back(&garment(name));
+  /// Makes each garment of the plans once, several at a time.
+  void makeGarments(const std::vector<OutfitPlan>& plans, unsigned jobs) {
+    for (const OutfitPlan& plan : plans) {
+      for (const std::string& name : plan.garments) garments_.try_emplace(name);
+    }
+    std::vector<std::pair<const std::string, MadeGarment>*> entries;
+    for (auto& entry : garments_) entries.push_back(&entry);
+    std::vector<std::exception_ptr> errors(entries.size());
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next++; i < entries.size(); i = next++) {
+        try {
+          const auto& name = entries[i]->first;
+          entries[i]->second = makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, name));
+        } catch (...) {
+          errors[i] = std::current_exception();
+        }
+      }
+    };
+    {
+      const unsigned threads = jobs > 0 ? jobs : std::max(1u, std::thread::hardware_concurrency());
+      std::vector<std::jthread> others;
+      for (unsigned t = 1; t < std::min<std::size_t>(threads, entries.size()); ++t) others.emplace_back(work);
+      work();
+    }
+    for (const std::exception_ptr& error : errors) {
+      if (error) std::rethrow_exception(error);
+    }
+  }
+
+  MadeOutfit dress(const OutfitPlan& plan) const {
+    std::vector<const MadeGarment*> garments = {&face_};
+    for (const std::string& name : plan.garments) garments.push_back(&garments_.at(name));
     const std::vector<std::uint8_t> hidden = findCoveredFaces(mesh_, garments);
     MadeOutfit outfit;
     outfit.name = plan.name;
     outfit.fitted = asset(bodyNode(mesh_, vertices_, hidden), garments);
     outfit.unfitted = asset(bodyNode(mesh_, vertices_, nothing_hidden_), garments);
     return outfit;
-  }
-
-  /// Each garment is made once and shared by all outfits that have it.
-  const MadeGarment& garment(const std::string& name) {
-    const auto found = garments_.find(name);
-    if (found != garments_.end()) return *found->second;
-    auto made = std::make_unique<MadeGarment>(
-        makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, name)));
-    return *garments_.emplace(name, std::move(made)).first->second;
   }
 
   RawAsset asset(RawMeshNode body, const std::vector<const MadeGarment*>& garments) const {
@@ -134,12 +162,13 @@ class PersonMaker {
   const MadeGarment face_;
   std::vector<RawVertex> vertices_;
   std::vector<std::uint8_t> nothing_hidden_;
-  std::map<std::string, std::unique_ptr<MadeGarment>> garments_;
+  std::map<std::string, MadeGarment> garments_;
 };
 
 }  // namespace
 
-MadePerson makePerson(const PersonConfig& config) { return PersonMaker(config).run(); }
+MadePerson makePerson(const PersonConfig& config, unsigned jobs) { return PersonMaker(config).run(jobs); }
+RawAsset makeTemplatePerson(const PersonConfig& config) { return PersonMaker(config).makeTemplate(); }
 
 std::vector<std::filesystem::path> writePerson(const MadePerson& person, const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;

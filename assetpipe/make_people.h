@@ -47,10 +47,13 @@ struct MadePerson {
 PeopleConfig loadPeopleConfig(const std::filesystem::path& file);
 PeopleConfig parsePeopleConfig(const std::string& text, const std::filesystem::path& file);
 
-/// Makes a person in memory; takes a few seconds. The same configuration gives the same bytes. A
-/// garment that several outfits share is the same in each, vertex by vertex.
-/// @pre the configuration is as loadPeopleConfig returns it.
-MadePerson makePerson(const PersonConfig& config);
+/// Makes a person in memory; takes a few seconds of `jobs` threads (0: one a core). The same
+/// configuration gives the same bytes. A garment that several outfits share is the same in each,
+/// vertex by vertex. @pre the configuration is as loadPeopleConfig returns it.
+MadePerson makePerson(const PersonConfig& config, unsigned jobs = 0);
+
+/// Only the template, as MadePerson::body has it.
+RawAsset makeTemplatePerson(const PersonConfig& config);
 
 /// Writes DIR/NAME/template.glb, DIR/NAME/outfits/OUTFIT.glb and DIR/NAME/unfitted/OUTFIT.glb, each
 /// file whole or not at all; returns their paths. @throws SystemError

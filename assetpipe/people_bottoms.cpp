@@ -28,7 +28,7 @@ void cutLegs(GarmentDesign& design, const Figure& f, const LegCut& cut) {
                                cut.knee * limb), 0.0f);
   }
   if (cut.ankle > 0.0f) {
-    legs.join(Solid::roundCone(f.joints[kCalf], f.joints[kFoot] - Vec3(0, 0.06f * f.scale, -0.012f * f.scale),
+    legs.join(Solid::roundCone(f.joints[kCalf], f.joints[kFoot] - Vec3(0, 0.06f * f.scale, 0.005f * f.scale),
                                cut.knee * limb, cut.ankle * limb), 0.03f * f.scale);
   }
   const Field belt = [cut](const Vec3& p) { return p.y + 0.10f * p.z - cut.waist_y + cut.belt; };
@@ -76,7 +76,7 @@ GarmentDesign designJeans(const Figure& f, const Palette& palette) {
   cut.hem_y = f.joints[kFoot].y + (slim ? 0.014f : -0.035f) * f.scale;
   cut.thigh = slim ? 0.070f : 0.080f;
   cut.knee = slim ? 0.052f : 0.061f;
-  cut.ankle = slim ? 0.043f : 0.063f;
+  cut.ankle = slim ? 0.043f : 0.066f;
   cutLegs(design, f, cut);
   design.face_count = 1400;
   return design;
@@ -91,8 +91,8 @@ GarmentDesign designTrousers(const Figure& f, const Palette& palette) {
   cut.waist_y = f.joints[kPelvis].y + 0.060f * f.scale;
   cut.hem_y = f.joints[kFoot].y - 0.050f * f.scale;
   cut.thigh = 0.080f;
-  cut.knee = 0.066f;
-  cut.ankle = 0.066f;
+  cut.knee = 0.067f;
+  cut.ankle = 0.069f;
   cutLegs(design, f, cut);
   design.face_count = 1300;
   return design;

@@ -17,6 +17,7 @@ namespace {
 struct PeopleArguments {
   CommonOptions common;
   std::string config, folder;
+  unsigned jobs = 0;
 };
 
 std::size_t faceCount(const RawMeshNode& node) {
@@ -50,7 +51,7 @@ void run(const PeopleArguments& arguments) {
   std::string text;
   Progress progress("people", config.people.size());
   for (const PersonConfig& person_config : config.people) {
-    const MadePerson person = makePerson(person_config);
+    const MadePerson person = makePerson(person_config, arguments.jobs);
     for (const auto& file : writePerson(person, arguments.folder)) logDetail("wrote " + file.string());
     figures["people"].push_back(figuresOf(person));
     text += fmt::format("{}: {} faces, {} outfits in {}\n", person.name, faceCount(person.body.meshes.front()),
@@ -70,6 +71,9 @@ void addPeopleCommand(CLI::App& app) {
   command.add_option("-o,--output", arguments->folder, "Write NAME/template.glb, NAME/outfits/ and NAME/unfitted/ here")
       ->required()
       ->type_name("FOLDER");
+  command.add_option("-j,--jobs", arguments->jobs, "Threads, 1 to 256; default: one a core")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
   finishCommand(command, arguments->common, "ensemble people config/people/two.yaml -o people",
                 [arguments] { run(*arguments); });
 }

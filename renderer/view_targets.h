@@ -10,7 +10,7 @@
 
 namespace ensemble {
 
-inline constexpr auto kColorFormat = vk::Format::eR16G16B16A16Sfloat;
+inline constexpr auto kColorFormat = vk::Format::eR32G32B32A32Sfloat;
 inline constexpr auto kDepthFormat = vk::Format::eD32Sfloat;
 /// In the order of Aov and ENSEMBLE_AOV_...
 inline constexpr std::array<vk::Format, 5> kAovFormats = {vk::Format::eR32Uint, vk::Format::eR32Uint,

@@ -25,7 +25,7 @@ MAY_INCLUDE = {
 HIDDEN = {
     r"vulkan/": ["renderer", "tests/renderer"],
     r"(CGAL|OpenMesh|embree[34])/": ["assetpipe", "tests/assetpipe"],
-    r"(tiny_gltf\.h|draco/)": ["core/gltf_", "core/draco_"],
+    r"(tiny_gltf\.h|draco/)": ["core/gltf_", "tests/core"],
     r"(yaml-cpp/)": ["core", "assetpipe", "tests"],
     r"(openssl/)": ["core/hash.cpp"],
     r"(CLI/)": ["cli", "tests/cli"],

@@ -68,7 +68,9 @@ inline AovSet allAovs() {
 inline std::vector<std::size_t> differingPixels(const Image8& a, const Image8& b) {
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < a.rgba.size() / 4; ++i) {
-    if (!std::equal(a.rgba.begin() + 4 * i, a.rgba.begin() + 4 * i + 4, b.rgba.begin() + 4 * i)) pixels.push_back(i);
+    bool same = true;
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) same = same && a.rgba[k] == b.rgba[k];
+    if (!same) pixels.push_back(i);
   }
   return pixels;
 }

@@ -15,8 +15,8 @@ namespace {
 using ::testing::ElementsAre;
 
 Image8 plainImage(std::uint32_t width, std::uint32_t height, std::array<std::uint8_t, 4> color) {
-  Image8 image{width, height, {}};
-  for (std::uint32_t i = 0; i < width * height; ++i) image.rgba.insert(image.rgba.end(), color.begin(), color.end());
+  Image8 image{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = color[i % 4];
   return image;
 }
 

@@ -112,19 +112,19 @@ TEST_F(PictureTest, PeopleCastShadows) {
     darker += lit.color.rgba[4 * i] + 20 < unlit.color.rgba[4 * i];
     brighter += lit.color.rgba[4 * i] > unlit.color.rgba[4 * i];
   }
-  EXPECT_GT(darker, 100u) << "on the ground";
+  EXPECT_GT(darker, 60u) << "on the ground";
   EXPECT_EQ(brighter, 0u);
 }
 
 TEST_F(PictureTest, TintSeedsDressPeopleDifferently) {
   Scene scene = onePerson("tunic");
   View view = viewOf(scene);
-  std::set<std::vector<std::uint8_t>> pictures;
+  std::vector<Image8> pictures;
   for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
     scene.people[0].tint = seed;
-    pictures.insert(drawScene(scene, view).color.rgba);
+    pictures.push_back(drawScene(scene, view).color);
+    for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i].rgba, pictures.back().rgba) << seed;
   }
-  EXPECT_EQ(pictures.size(), 4u);
 }
 
 }  // namespace

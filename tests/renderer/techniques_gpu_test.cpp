@@ -22,6 +22,7 @@ class Techniques : public GpuTest, public ::testing::WithParamInterface<std::uin
   Drawn drawAll(Technique technique) {
     Scene scene = testing::tubeScene(12);
     scene.technique = technique;
+    for (const char* outfit : outfits_) scene.crowd.outfits.push_back({outfit, 1.0f, {}});
     Drawn drawn{makeRenderer(scene), {}};
     for (const SceneCamera& camera : cameras()) {
       for (const double seconds : {0.0, 0.43}) {
@@ -34,6 +35,7 @@ class Techniques : public GpuTest, public ::testing::WithParamInterface<std::uin
     }
     return drawn;
   }
+  std::vector<const char*> outfits_;  ///< worn; empty: all
 };
 
 TEST_P(Techniques, TaggedIsPrefittedByteForByte) {
@@ -58,12 +60,14 @@ INSTANTIATE_TEST_SUITE_P(Samples, NaiveTechnique, ::testing::Values(1u));
 
 // Shadows are on: hidden faces must not cast any, or other pixels would differ.
 TEST_P(NaiveTechnique, DiffersOnlyWhereItShowsAHiddenFace) {
+  outfits_ = {"tunic", "net"};  // Body faces that the template lacks have face numbers of their own.
   const Drawn tagged = drawAll(Technique::kTagged), naive = drawAll(Technique::kNaive);
   std::size_t hidden_pixels = 0, differing = 0;
   for (std::size_t i = 0; i < tagged.pictures.size(); ++i) {
     const Picture& picture = naive.pictures[i];
     for (const std::size_t pixel : testing::differingPixels(tagged.pictures[i].color, picture.color)) {
-      EXPECT_TRUE(testing::showsHiddenFace(picture, pixel, *naive.renderer, wardrobes_)) << i << ", pixel " << pixel;
+      EXPECT_TRUE(testing::showsHiddenFace(picture, pixel, *naive.renderer, wardrobes_))
+          << i << ", pixel " << pixel;
       ++differing;
     }
     for (std::size_t pixel = 0; pixel < picture.face.size(); ++pixel) {
