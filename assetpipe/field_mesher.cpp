@@ -163,8 +163,8 @@ class Mesher {
   const Field& field_;
   FieldMesherOptions options_;
   Node count_{};
-  std::unordered_map<std::uint64_t, float> values_;             // looked up only, never walked
-  std::unordered_map<std::uint64_t, std::uint32_t> vertices_;   // likewise
+  std::unordered_map<std::uint64_t, float> values_;            // looked up only, never walked
+  std::unordered_map<std::uint64_t, std::uint32_t> vertices_;  // likewise
   std::unordered_set<std::uint64_t> seen_;
   std::vector<Node> queue_;
   FieldMesh mesh_;

@@ -7,7 +7,7 @@
 namespace ensemble {
 namespace {
 
-constexpr float kFootHeight = 0.03f;     // metres: joints that come this near to the lowest one are of the feet
+constexpr float kFootHeight = 0.03f;  // metres: joints that come this near to the lowest one are of the feet
 constexpr float kContactRise = 0.005f;   // metres above a foot joint's own lowest place: it stands
 constexpr float kStandingSpeed = 0.05f;  // metres a second
 

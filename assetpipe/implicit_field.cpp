@@ -120,8 +120,8 @@ Solid Solid::loft(const LoftFrame& frame, std::vector<LoftRow> rows, float boxin
   solid.local_from_world_ = glm::transpose(frame.world_from_local);
   solid.boxiness_ = boxiness;
   solid.slopes_.resize(rows.size());
-  for (const auto column : {&LoftRow::center_x, &LoftRow::center_z, &LoftRow::side, &LoftRow::front,
-                            &LoftRow::back}) {
+  for (const auto column :
+       {&LoftRow::center_x, &LoftRow::center_z, &LoftRow::side, &LoftRow::front, &LoftRow::back}) {
     columnSlopes(rows, column, solid.slopes_);
   }
   float widest = 0.0f;
@@ -150,9 +150,12 @@ float Solid::lowerBound(const Vec3& position) const {
 
 float Solid::distance(const Vec3& position) const {
   switch (kind_) {
-    case Kind::kRoundCone: return roundConeDistance(position);
-    case Kind::kEllipsoid: return ellipsoidDistance(position);
-    case Kind::kLoft: return loftDistance(position);
+    case Kind::kRoundCone:
+      return roundConeDistance(position);
+    case Kind::kEllipsoid:
+      return ellipsoidDistance(position);
+    case Kind::kLoft:
+      return loftDistance(position);
   }
   return 0.0f;
 }

@@ -69,12 +69,12 @@ class Solid {
   float loftDistance(const Vec3& position) const;
 
   Kind kind_ = Kind::kRoundCone;
-  Vec3 center_{0.0f};     // of the bounding sphere
-  float radius_ = 0.0f;   // of the bounding sphere
-  Vec3 a_{0.0f};          // round cone: start; the others: origin
-  Vec3 axis_{0.0f};       // round cone: unit axis
+  Vec3 center_{0.0f};    // of the bounding sphere
+  float radius_ = 0.0f;  // of the bounding sphere
+  Vec3 a_{0.0f};         // round cone: start; the others: origin
+  Vec3 axis_{0.0f};      // round cone: unit axis
   float length_ = 0.0f, radius_a_ = 0.0f, radius_b_ = 0.0f;
-  Vec3 radii_{1.0f};      // ellipsoid
+  Vec3 radii_{1.0f};  // ellipsoid
   Mat3 local_from_world_{1.0f};
   std::vector<LoftRow> rows_;
   std::vector<LoftRow> slopes_;  // d row / d along, for the cubic interpolation

@@ -62,7 +62,9 @@ std::vector<RawMaterial> skinMaterials(const Vec3& skin) {
 class PersonMaker {
  public:
   explicit PersonMaker(const PersonConfig& config)
-      : config_(config), figure_(makeFigure(config.figure)), skeleton_(makeSkeleton(figure_)),
+      : config_(config),
+        figure_(makeFigure(config.figure)),
+        skeleton_(makeSkeleton(figure_)),
         mesh_(makeBodyMesh(figure_, config.body_faces)),
         face_(makeFaceDetails(figure_, mesh_, {config.colors.hair * 0.7f, Vec3(0.050f, 0.030f, 0.020f)})) {
     const Field body = [this](const Vec3& p) { return figure_.body(p); };
@@ -110,7 +112,8 @@ class PersonMaker {
       for (std::size_t i = next++; i < entries.size(); i = next++) {
         try {
           const auto& name = entries[i]->first;
-          entries[i]->second = makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, name));
+          entries[i]->second =
+              makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, name));
         } catch (...) {
           errors[i] = std::current_exception();
         }
@@ -170,13 +173,15 @@ class PersonMaker {
 MadePerson makePerson(const PersonConfig& config, unsigned jobs) { return PersonMaker(config).run(jobs); }
 RawAsset makeTemplatePerson(const PersonConfig& config) { return PersonMaker(config).makeTemplate(); }
 
-std::vector<std::filesystem::path> writePerson(const MadePerson& person, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> writePerson(const MadePerson& person,
+                                               const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   const std::filesystem::path own = folder / person.name;
   for (const char* part : {"outfits", "unfitted"}) {
     std::error_code error;
     std::filesystem::create_directories(own / part, error);
-    if (error) throw SystemError({(own / part).string(), "", "the folder can't be made: " + error.message(), ""});
+    if (error)
+      throw SystemError({(own / part).string(), "", "the folder can't be made: " + error.message(), ""});
   }
   const auto write = [&](const std::filesystem::path& file, const RawAsset& asset) {
     writeFileAtomically(file, writeGlb(asset));

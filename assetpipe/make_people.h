@@ -18,9 +18,9 @@ namespace ensemble {
 
 /// One person to make.
 struct PersonConfig {
-  std::string name;                  ///< its folder's name
+  std::string name;  ///< its folder's name
   FigureOptions figure;
-  std::uint64_t seed = 0;            ///< of the garments' colours
+  std::uint64_t seed = 0;  ///< of the garments' colours
   PersonColors colors;
   std::vector<std::string> outfits;  ///< names of outfitPlans(figure.sex); empty: all
   std::uint32_t body_faces = 3300;   ///< about so many triangles, 1500 .. 20000
@@ -38,9 +38,9 @@ struct MadeOutfit {
 
 struct MadePerson {
   std::string name;
-  RawAsset body;                     ///< the template: body, skeleton, clips `walk` and `idle`
+  RawAsset body;  ///< the template: body, skeleton, clips `walk` and `idle`
   std::vector<MadeOutfit> outfits;
-  float walk_speed = 0.0f;           ///< of `walk` over the ground, metres a second
+  float walk_speed = 0.0f;  ///< of `walk` over the ground, metres a second
 };
 
 /// Reads a configuration (docs/people.md). @throws InputError FILE: LINE:COLUMN: ...

@@ -46,8 +46,10 @@ class PointGrid {
   std::uint64_t cellOf(const Vec3& point, const std::array<int, 3>& offset) const {
     std::uint64_t cell = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto step = static_cast<std::int64_t>(std::floor(static_cast<double>(point[axis]) / static_cast<double>(cell_size_)));
-      cell = cell << 21 | (static_cast<std::uint64_t>(step + offset[static_cast<std::size_t>(axis)]) & 0x1fffffu);
+      const auto step = static_cast<std::int64_t>(
+          std::floor(static_cast<double>(point[axis]) / static_cast<double>(cell_size_)));
+      cell = cell << 21 |
+             (static_cast<std::uint64_t>(step + offset[static_cast<std::size_t>(axis)]) & 0x1fffffu);
     }
     return cell;
   }
@@ -142,8 +144,8 @@ class Assignment {
   /// Breadth-first, so that no input can overflow the stack.
   void augment(std::uint32_t start) {
     std::vector<std::uint32_t> queue{start};
-    std::vector<std::uint32_t> came_from(1, kNone);      // per queue entry: the entry that led here
-    std::vector<std::uint32_t> through(1, kNone);        // ... and the template face it would give up
+    std::vector<std::uint32_t> came_from(1, kNone);  // per queue entry: the entry that led here
+    std::vector<std::uint32_t> through(1, kNone);    // ... and the template face it would give up
     for (std::size_t head = 0; head < queue.size(); ++head) {
       for (const std::uint32_t t : choices_[queue[head]]) {
         if (visited_[t] == start) continue;
@@ -156,7 +158,8 @@ class Assignment {
         }
         // Free: hand the faces along the path on.
         std::uint32_t free_face = t;
-        for (std::uint32_t entry = static_cast<std::uint32_t>(head); entry != kNone; entry = came_from[entry]) {
+        for (std::uint32_t entry = static_cast<std::uint32_t>(head); entry != kNone;
+             entry = came_from[entry]) {
           pair(queue[entry], free_face);
           free_face = through[entry];
         }
@@ -173,7 +176,9 @@ class Assignment {
 /// A tree over points that finds the nearest (median splits, in place).
 class NearestPoint {
  public:
-  explicit NearestPoint(std::vector<Vec3> points) : points_(std::move(points)) { split(0, points_.size(), 0); }
+  explicit NearestPoint(std::vector<Vec3> points) : points_(std::move(points)) {
+    split(0, points_.size(), 0);
+  }
 
   float distanceTo(const Vec3& query) const {
     float best = std::numeric_limits<float>::max();
@@ -186,7 +191,8 @@ class NearestPoint {
     if (last - first < 2) return;
     const std::size_t middle = (first + last) / 2;
     const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(last), [&](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+    std::nth_element(at(first), at(middle), at(last),
+                     [&](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
     split(first, middle, (axis + 1) % 3);
     split(middle + 1, last, (axis + 1) % 3);
   }
@@ -210,7 +216,8 @@ class NearestPoint {
   std::vector<Vec3> points_;
 };
 
-void measureDistances(const TemplateBody& body, std::span<const EmbeddedFace> embedded, FaceMatches& matches) {
+void measureDistances(const TemplateBody& body, std::span<const EmbeddedFace> embedded,
+                      FaceMatches& matches) {
   std::vector<Vec3> positions;
   for (const RawVertex& vertex : body.vertices) positions.push_back(vertex.position);
   const NearestPoint nearest(std::move(positions));

@@ -15,8 +15,8 @@ namespace ensemble {
 /// A face of the embedded body.
 struct EmbeddedFace {
   static constexpr std::uint32_t kAnyMaterial = 0xffffffffu;
-  std::array<Vec3, 3> corners;               ///< metres, model space, in winding order
-  std::uint32_t material = kAnyMaterial;     ///< index into TemplateBody::materials
+  std::array<Vec3, 3> corners;            ///< metres, model space, in winding order
+  std::uint32_t material = kAnyMaterial;  ///< index into TemplateBody::materials
 };
 
 struct FaceMatches {

@@ -1,6 +1,5 @@
 #include "assetpipe/people_body.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -37,9 +36,11 @@ float importance(const Figure& figure, const Vec3& p) {
   for (const Feature& feature : kFeatures) {
     const float distance = glm::distance((toLeft(p) - figure.head_center) / figure.head_size, feature.center);
     const float weight = feature.center.x > 0.05f ? 0.06f : 1.0f;  // an ear is large enough by itself
-    at_feature = std::max(at_feature, weight * (1.0f - smoothStep(0.6f * feature.radius, feature.radius, distance)));
+    at_feature =
+        std::max(at_feature, weight * (1.0f - smoothStep(0.6f * feature.radius, feature.radius, distance)));
   }
-  float result = 0.42f + 35.0f * at_face + 260.0f * at_feature + 1.8f * at_head + 2.2f * at_hand + 0.4f * at_toes;
+  float result =
+      0.42f + 35.0f * at_face + 260.0f * at_feature + 1.8f * at_head + 2.2f * at_hand + 0.4f * at_toes;
   for (const int joint : {kLowerArm, kCalf, kUpperArm}) {
     const float distance = glm::distance(toLeft(p), figure.joints[static_cast<std::size_t>(joint)]);
     result += 0.7f * (1.0f - smoothStep(0.05f * s, 0.12f * s, distance));
@@ -90,7 +91,8 @@ float footBorder(const Figure& figure, const Vec3& p) {
 }
 
 BodyRegion bodyRegion(const Figure& figure, const Vec3& p) {
-  if (armBorder(figure, p) > 0.0f) return handBorder(figure, p) > 0.0f ? BodyRegion::kHands : BodyRegion::kArms;
+  if (armBorder(figure, p) > 0.0f)
+    return handBorder(figure, p) > 0.0f ? BodyRegion::kHands : BodyRegion::kArms;
   if (headBorder(figure, p) > 0.0f) return BodyRegion::kHead;
   if (legBorder(figure, p) <= 0.0f) return BodyRegion::kTorso;
   return footBorder(figure, p) > 0.0f ? BodyRegion::kFeet : BodyRegion::kLegs;
@@ -105,14 +107,14 @@ FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
   mesher.half = true;
   FieldMesh half = meshField(body, mesher);
   using Border = float (*)(const Figure&, const Vec3&);
-  for (const Border border : {Border(headBorder), Border(armBorder), Border(handBorder), Border(legBorder),
-                              Border(footBorder)}) {
-    snapToBorder(half, body, [&](const Vec3& p) { return border(figure, p); }, mesher.cell);
+  for (const Border border :
+       {Border(headBorder), Border(armBorder), Border(handBorder), Border(legBorder), Border(footBorder)}) {
+    snapToBorder(
+        half, body, [&](const Vec3& p) { return border(figure, p); }, mesher.cell);
   }
   for (std::size_t f = 0; f < half.faces.size(); ++f) {
     const Triangle& face = half.faces[f];
-    const Vec3 middle =
-        (half.positions[face[0]] + half.positions[face[1]] + half.positions[face[2]]) / 3.0f;
+    const Vec3 middle = (half.positions[face[0]] + half.positions[face[1]] + half.positions[face[2]]) / 3.0f;
     half.labels[f] = static_cast<std::uint8_t>(bodyRegion(figure, middle));
   }
   SimplifySurfaceOptions simplify;
@@ -121,7 +123,8 @@ FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
   return mirrored(simplifySurface(half, body, simplify));
 }
 
-RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position, const SkinBinding& skin) {
+RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position,
+                     const SkinBinding& skin) {
   RawVertex vertex;
   vertex.position = position;
   constexpr float kNormalStep = 0.0035f;  // metres: about the size of the smallest triangles

@@ -9,36 +9,43 @@ namespace {
 
 Vec3 toLeft(const Vec3& p) { return {std::abs(p.x), p.y, p.z}; }
 
-float lowerBody(const Figure& f, const Vec3& p) {
-  return smoothMin(f.torso(p), f.leg(p), 0.035f * f.scale);
-}
+float lowerBody(const Figure& f, const Vec3& p) { return smoothMin(f.torso(p), f.leg(p), 0.035f * f.scale); }
 
 struct LegCut {
-  float offset = 0.008f;                           // metres off the skin
-  float waist_y = 1.0f, hem_y = 0.05f;             // metres
-  float thigh = 0.0f, knee = 0.0f, ankle = 0.0f;   // radii of the legs of cloth, 0: none
-  float belt = 0.035f;                             // width of the band at the waist, metres
+  float offset = 0.008f;                          // metres off the skin
+  float waist_y = 1.0f, hem_y = 0.05f;            // metres
+  float thigh = 0.0f, knee = 0.0f, ankle = 0.0f;  // radii of the legs of cloth, 0: none
+  float belt = 0.035f;                            // width of the band at the waist, metres
 };
 
 void cutLegs(GarmentDesign& design, const Figure& f, const LegCut& cut) {
   const float limb = f.scale * f.limb * (f.isFemale() ? 1.10f : 1.0f);
   SolidGroup legs;
   if (cut.thigh > 0.0f) {
-    legs.join(Solid::roundCone(glm::mix(f.joints[kThigh], f.joints[kCalf], 0.25f), f.joints[kCalf], cut.thigh * limb,
-                               cut.knee * limb), 0.0f);
+    legs.join(Solid::roundCone(glm::mix(f.joints[kThigh], f.joints[kCalf], 0.25f), f.joints[kCalf],
+                               cut.thigh * limb, cut.knee * limb),
+              0.0f);
   }
   if (cut.ankle > 0.0f) {
     legs.join(Solid::roundCone(f.joints[kCalf], f.joints[kFoot] - Vec3(0, 0.06f * f.scale, 0.005f * f.scale),
-                               cut.knee * limb, cut.ankle * limb), 0.03f * f.scale);
+                               cut.knee * limb, cut.ankle * limb),
+              0.03f * f.scale);
   }
   const Field belt = [cut](const Vec3& p) { return p.y + 0.10f * p.z - cut.waist_y + cut.belt; };
   design.shell = [&f, cut, legs, belt](const Vec3& p) {
     float value = lowerBody(f, p);
     if (!legs.empty()) value = smoothMin(value, legs.distance(toLeft(p)), 0.03f * f.scale);
+    // Long legs fall over the shoe's instep.
+    if (cut.hem_y < f.joints[kFoot].y)
+      value = smoothMin(value, f.foot(p) - 0.006f * f.scale, 0.03f * f.scale);
     return value - cut.offset - 0.0025f * f.scale * smoothStep(-0.003f, 0.003f, belt(p));
   };
   // The waistband is a little higher at the back.
-  design.opening = [cut](const Vec3& p) { return std::max(p.y + 0.10f * p.z - cut.waist_y, cut.hem_y - p.y); };
+  // So is the front of the hem, over the instep.
+  const float slope = cut.hem_y < f.joints[kFoot].y ? 0.30f : 0.0f;
+  design.opening = [cut, slope, ankle_z = f.joints[kFoot].z](const Vec3& p) {
+    return std::max(p.y + 0.10f * p.z - cut.waist_y, cut.hem_y + slope * std::max(p.z - ankle_z, 0.0f) - p.y);
+  };
   design.binding = [&f](const Vec3& p) { return bodyBinding(f, p); };
   const float s = f.scale;
   design.importance = [&f, s](const Vec3& p) {
@@ -68,7 +75,8 @@ void addStripes(GarmentDesign& design, const Figure& f) {
 GarmentDesign designJeans(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.jeans";
-  design.materials = {clothMaterial("cloth.jeans", palette.main), clothMaterial("cloth.jeans.belt", palette.second)};
+  design.materials = {clothMaterial("cloth.jeans", palette.main),
+                      clothMaterial("cloth.jeans.belt", palette.second)};
   const bool slim = f.isFemale();
   LegCut cut;
   cut.offset = 0.009f;
@@ -85,7 +93,8 @@ GarmentDesign designJeans(const Figure& f, const Palette& palette) {
 GarmentDesign designTrousers(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.trousers";
-  design.materials = {clothMaterial("cloth.trousers", palette.main), clothMaterial("cloth.trousers.belt", palette.second)};
+  design.materials = {clothMaterial("cloth.trousers", palette.main),
+                      clothMaterial("cloth.trousers.belt", palette.second)};
   LegCut cut;
   cut.offset = 0.009f;
   cut.waist_y = f.joints[kPelvis].y + 0.060f * f.scale;
@@ -101,7 +110,8 @@ GarmentDesign designTrousers(const Figure& f, const Palette& palette) {
 GarmentDesign designShorts(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.shorts";
-  design.materials = {clothMaterial("cloth.shorts", palette.main), clothMaterial("cloth.shorts.stripe", palette.second)};
+  design.materials = {clothMaterial("cloth.shorts", palette.main),
+                      clothMaterial("cloth.shorts.stripe", palette.second)};
   LegCut cut;
   cut.offset = 0.011f;
   cut.waist_y = f.joints[kPelvis].y + 0.030f * f.scale;
@@ -118,7 +128,8 @@ GarmentDesign designShorts(const Figure& f, const Palette& palette) {
 GarmentDesign designLeggings(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.leggings";
-  design.materials = {clothMaterial("cloth.leggings", palette.main), clothMaterial("cloth.leggings.stripe", palette.second)};
+  design.materials = {clothMaterial("cloth.leggings", palette.main),
+                      clothMaterial("cloth.leggings.stripe", palette.second)};
   LegCut cut;
   cut.offset = 0.005f;
   cut.waist_y = f.joints[kPelvis].y + 0.060f * f.scale;

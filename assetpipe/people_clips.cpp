@@ -47,7 +47,8 @@ class Poser {
     is_set_[static_cast<std::size_t>(index)] = true;
   }
   Quat turned(int index) const {
-    return is_set_[static_cast<std::size_t>(index)] ? turned_[static_cast<std::size_t>(index)] : inherited(index);
+    return is_set_[static_cast<std::size_t>(index)] ? turned_[static_cast<std::size_t>(index)]
+                                                    : inherited(index);
   }
 
   /// Bends a leg so that the ankle comes to `ankle` (or as near as it reaches), knee to the front.
@@ -68,7 +69,8 @@ class Poser {
   }
 
   float legReach() const {
-    return glm::distance(restJoint(kThigh), restJoint(kCalf)) + glm::distance(restJoint(kCalf), restJoint(kFoot));
+    return glm::distance(restJoint(kThigh), restJoint(kCalf)) +
+           glm::distance(restJoint(kCalf), restJoint(kFoot));
   }
   Vec3 hip(int side) const {
     return pelvis_ + turned(kPelvis) * (restJoint(kThigh + side) - restJoint(kPelvis));

@@ -44,8 +44,9 @@ std::vector<std::string> readOutfits(const YamlValue& value, Sex sex) {
   for (const YamlValue& item : value.items("a list of outfits")) {
     const std::string name = item.text("an outfit's name");
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      item.fail(item.description() + ", which is no outfit",
-                "did you mean " + quotedList(nearestNames(name, known)) + "? There are " + quotedList(known, "and"));
+      item.fail(item.description() + ", which is no outfit", "did you mean " +
+                                                                 quotedList(nearestNames(name, known)) +
+                                                                 "? There are " + quotedList(known, "and"));
     }
     if (std::find(chosen.begin(), chosen.end(), name) != chosen.end()) {
       item.fail(item.description() + ", which is there twice", "leave one out");
@@ -71,7 +72,8 @@ PersonConfig readPerson(const YamlValue& value) {
   if (const auto height = value.find("height")) {
     person.figure.height = height->numberFloat({.min = 1.4, .max = 2.1, .unit = "metres"});
   }
-  if (const auto build = value.find("build")) person.figure.build = build->numberFloat({.min = -1.0, .max = 1.0});
+  if (const auto build = value.find("build"))
+    person.figure.build = build->numberFloat({.min = -1.0, .max = 1.0});
   if (const auto seed = value.find("seed")) person.seed = seed->wholeNumber(0, 0xffffffffull);
   person.colors = pickColors(person.seed);
   if (const auto skin = value.find("skin")) person.colors.skin = readColor(*skin, skinTones());
@@ -98,7 +100,8 @@ PeopleConfig parsePeopleConfig(const std::string& text, const std::filesystem::p
   for (const YamlValue& item : people->items("a list of people")) {
     PersonConfig person = readPerson(item);
     for (const PersonConfig& other : config.people) {
-      if (other.name == person.name) item.fail("the name '" + person.name + "' is there twice", "give each person a name of its own");
+      if (other.name == person.name)
+        item.fail("the name '" + person.name + "' is there twice", "give each person a name of its own");
     }
     config.people.push_back(std::move(person));
   }

@@ -16,7 +16,8 @@ enum Part : std::uint32_t { kEyeWhite, kIris, kLashes, kBrows, kPartCount };
 /// Paints onto the face from the front. Points are x, y in metres of the reference head.
 class FacePainter {
  public:
-  FacePainter(const Figure& figure, const FieldMesh& body) : figure_(figure), body_(body), parts_(kPartCount) {
+  FacePainter(const Figure& figure, const FieldMesh& body)
+      : figure_(figure), body_(body), parts_(kPartCount) {
     for (const Triangle& face : body.faces) {
       const Vec3 a = onHead(body.positions[face[0]]);
       if (a.z > 0.0f && a.y > -0.13f && a.y < 0.08f) faces_.push_back(face);
@@ -51,7 +52,8 @@ class FacePainter {
         const Vec2 corner = center + radius * Vec2(std::cos(angle), std::sin(angle));
         ring.push_back(add(part, corner * Vec2(side, 1.0f), lift));
       }
-      for (std::size_t i = 0; i < ring.size(); ++i) addFace(part, {middle, ring[i], ring[(i + 1) % ring.size()]}, side);
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        addFace(part, {middle, ring[i], ring[(i + 1) % ring.size()]}, side);
     }
   }
 
@@ -120,12 +122,15 @@ MadeGarment makeFaceDetails(const Figure& figure, const FieldMesh& body, const P
   const auto lower = [&](float t) { return kEye + 0.0012f * t - 0.0050f * open * arch(t); };
   painter.strip(kEyeWhite, line(kInner, kOuter, 8, lower), line(kInner, kOuter, 8, upper), 0.0012f);
   painter.disc(kIris, {0.0322f, kEye + 0.0016f}, 0.0056f, 0.0020f);
-  painter.strip(kLashes, line(kInner, kOuter + 0.002f, 8, [&](float t) { return upper(t) - 0.0012f; }),
-                line(kInner, kOuter + 0.002f, 8, [&](float t) { return upper(t) + (0.0008f + 0.0012f * t) * open; }), 0.0026f);
+  painter.strip(
+      kLashes, line(kInner, kOuter + 0.002f, 8, [&](float t) { return upper(t) - 0.0012f; }),
+      line(kInner, kOuter + 0.002f, 8, [&](float t) { return upper(t) + (0.0008f + 0.0012f * t) * open; }),
+      0.0026f);
   const float thick = female ? 0.0024f : 0.0036f, height = female ? 0.0135f : 0.0115f;
   const auto brow = [&](float t) { return height + 0.0040f * std::sin(kPi * 0.75f * t) - 0.0020f * t; };
-  painter.strip(kBrows, line(0.0135f, 0.0530f, 7, [&](float t) { return brow(t) - thick * (1.0f - 0.75f * t); }),
-                line(0.0135f, 0.0530f, 7, [&](float t) { return brow(t) + thick * (1.0f - 0.75f * t); }), 0.0016f);
+  painter.strip(
+      kBrows, line(0.0135f, 0.0530f, 7, [&](float t) { return brow(t) - thick * (1.0f - 0.75f * t); }),
+      line(0.0135f, 0.0530f, 7, [&](float t) { return brow(t) + thick * (1.0f - 0.75f * t); }), 0.0016f);
   // Half of the mouth's line; the strip's mirror image is the other half.
   const auto mouth = [](float t) { return -0.0830f + 0.0012f * t * t; };
   painter.strip(kLashes, line(0.0f, 0.0215f, 6, [&](float t) { return mouth(t) - 0.0011f * (1.0f - t); }),
@@ -134,8 +139,9 @@ MadeGarment makeFaceDetails(const Figure& figure, const FieldMesh& body, const P
   MadeGarment made;
   made.node.name = "garment.face";
   made.node.primitives = painter.take();
-  made.materials = {clothMaterial("face.eyes", Vec3(0.78f, 0.76f, 0.72f)), clothMaterial("face.eyes.iris", palette.second),
-                    clothMaterial("face.lashes", Vec3(0.035f, 0.018f, 0.014f)), clothMaterial("hair.brows", palette.main)};
+  made.materials = {
+      clothMaterial("face.eyes", Vec3(0.78f, 0.76f, 0.72f)), clothMaterial("face.eyes.iris", palette.second),
+      clothMaterial("face.lashes", Vec3(0.035f, 0.018f, 0.014f)), clothMaterial("hair.brows", palette.main)};
   return made;
 }
 

@@ -14,17 +14,14 @@ namespace ensemble {
 namespace {
 
 constexpr std::array<std::string_view, kBodyJointCount> kNames = {
-    "Root", "pelvis", "spine_01", "spine_02", "spine_03",
-    "clavicle_l", "upperarm_l", "lowerarm_l", "hand_l",
-    "index_01_l", "index_02_l", "index_03_l", "middle_01_l", "middle_02_l", "middle_03_l",
-    "pinky_01_l", "pinky_02_l", "pinky_03_l", "ring_01_l", "ring_02_l", "ring_03_l",
-    "thumb_01_l", "thumb_02_l", "thumb_03_l",
-    "clavicle_r", "upperarm_r", "lowerarm_r", "hand_r",
-    "index_01_r", "index_02_r", "index_03_r", "middle_01_r", "middle_02_r", "middle_03_r",
-    "pinky_01_r", "pinky_02_r", "pinky_03_r", "ring_01_r", "ring_02_r", "ring_03_r",
-    "thumb_01_r", "thumb_02_r", "thumb_03_r",
-    "neck_01", "head",
-    "thigh_l", "calf_l", "foot_l", "ball_l", "thigh_r", "calf_r", "foot_r", "ball_r"};
+    "Root",        "pelvis",     "spine_01",   "spine_02",    "spine_03",    "clavicle_l",  "upperarm_l",
+    "lowerarm_l",  "hand_l",     "index_01_l", "index_02_l",  "index_03_l",  "middle_01_l", "middle_02_l",
+    "middle_03_l", "pinky_01_l", "pinky_02_l", "pinky_03_l",  "ring_01_l",   "ring_02_l",   "ring_03_l",
+    "thumb_01_l",  "thumb_02_l", "thumb_03_l", "clavicle_r",  "upperarm_r",  "lowerarm_r",  "hand_r",
+    "index_01_r",  "index_02_r", "index_03_r", "middle_01_r", "middle_02_r", "middle_03_r", "pinky_01_r",
+    "pinky_02_r",  "pinky_03_r", "ring_01_r",  "ring_02_r",   "ring_03_r",   "thumb_01_r",  "thumb_02_r",
+    "thumb_03_r",  "neck_01",    "head",       "thigh_l",     "calf_l",      "foot_l",      "ball_l",
+    "thigh_r",     "calf_r",     "foot_r",     "ball_r"};
 
 /// Lengths of the reference figures in metres.
 struct Measures {
@@ -36,16 +33,42 @@ struct Measures {
   float head_size;  // factor on the head
 };
 
-constexpr Measures kMan = {1.76f, 0.965f, 1.06f, 1.17f, 1.29f, 1.497f, 1.588f,
-                           {0.025f, 1.45f, 0.0f}, {0.186f, 1.437f, -0.02f},
-                           {0.092f, 0.925f, 0.0f}, {0.102f, 0.50f, 0.012f},
-                           {0.108f, 0.085f, -0.027f}, {0.120f, 0.022f, 0.105f},
-                           0.295f, 0.258f, 0.19f, 1.0f, 1.0f};
-constexpr Measures kWoman = {1.66f, 0.915f, 1.00f, 1.10f, 1.21f, 1.412f, 1.497f,
-                             {0.02f, 1.367f, 0.0f}, {0.156f, 1.354f, -0.018f},
-                             {0.088f, 0.868f, 0.0f}, {0.094f, 0.468f, 0.012f},
-                             {0.098f, 0.079f, -0.024f}, {0.108f, 0.021f, 0.095f},
-                             0.274f, 0.238f, 0.174f, 0.86f, 0.955f};
+constexpr Measures kMan = {1.76f,
+                           0.965f,
+                           1.06f,
+                           1.17f,
+                           1.29f,
+                           1.497f,
+                           1.588f,
+                           {0.025f, 1.45f, 0.0f},
+                           {0.186f, 1.437f, -0.02f},
+                           {0.092f, 0.925f, 0.0f},
+                           {0.102f, 0.50f, 0.012f},
+                           {0.108f, 0.085f, -0.027f},
+                           {0.120f, 0.022f, 0.105f},
+                           0.295f,
+                           0.258f,
+                           0.19f,
+                           1.0f,
+                           1.0f};
+constexpr Measures kWoman = {1.66f,
+                             0.915f,
+                             1.00f,
+                             1.10f,
+                             1.21f,
+                             1.412f,
+                             1.497f,
+                             {0.02f, 1.367f, 0.0f},
+                             {0.156f, 1.354f, -0.018f},
+                             {0.088f, 0.868f, 0.0f},
+                             {0.094f, 0.468f, 0.012f},
+                             {0.098f, 0.079f, -0.024f},
+                             {0.108f, 0.021f, 0.095f},
+                             0.274f,
+                             0.238f,
+                             0.174f,
+                             0.86f,
+                             0.955f};
 
 /// Builds the solids in reference metres and scales them on the way in.
 class Builder {
@@ -156,8 +179,8 @@ class Builder {
         joint(finger.joint + static_cast<int>(i)) = fromHand(at.x, at.y, at.z);
         const float length = finger.length * kParts[i];
         const float curl = radians(kCurl[i]), splay = radians(finger.splay_degrees);
-        at += length * Vec3(std::cos(curl) * std::cos(splay), std::cos(curl) * std::sin(splay),
-                            std::sin(curl));
+        at +=
+            length * Vec3(std::cos(curl) * std::cos(splay), std::cos(curl) * std::sin(splay), std::sin(curl));
       }
       finger_ends_[f] = fromHand(at.x, at.y, at.z);
     }
@@ -172,14 +195,14 @@ class Builder {
     const float belly = 1.0f + 0.12f * std::max(figure_.options.build, 0.0f);
     std::vector<LoftRow> rows;
     if (female_) {
-      rows = {{0.880f, 0, 0.000f, 0.164f, 0.094f, 0.098f}, {0.930f, 0, 0.000f, 0.163f, 0.097f, 0.098f},
-              {0.985f, 0, 0.000f, 0.146f, 0.095f, 0.086f}, {1.040f, 0, 0.000f, 0.126f, 0.089f, 0.077f},
-              {1.095f, 0, 0.000f, 0.121f, 0.088f, 0.077f}, {1.160f, 0, -0.004f, 0.129f, 0.092f, 0.086f},
+      rows = {{0.880f, 0, 0.000f, 0.164f, 0.094f, 0.098f},  {0.930f, 0, 0.000f, 0.163f, 0.097f, 0.098f},
+              {0.985f, 0, 0.000f, 0.146f, 0.095f, 0.086f},  {1.040f, 0, 0.000f, 0.126f, 0.089f, 0.077f},
+              {1.095f, 0, 0.000f, 0.121f, 0.088f, 0.077f},  {1.160f, 0, -0.004f, 0.129f, 0.092f, 0.086f},
               {1.230f, 0, -0.010f, 0.136f, 0.094f, 0.093f}, {1.295f, 0, -0.015f, 0.137f, 0.083f, 0.095f},
               {1.345f, 0, -0.020f, 0.124f, 0.062f, 0.083f}, {1.385f, 0, -0.026f, 0.090f, 0.044f, 0.062f}};
     } else {
-      rows = {{0.930f, 0, 0.003f, 0.160f, 0.098f, 0.104f}, {0.990f, 0, 0.002f, 0.160f, 0.102f, 0.102f},
-              {1.060f, 0, 0.000f, 0.151f, 0.105f, 0.090f}, {1.130f, 0, 0.000f, 0.147f, 0.104f, 0.087f},
+      rows = {{0.930f, 0, 0.003f, 0.160f, 0.098f, 0.104f},  {0.990f, 0, 0.002f, 0.160f, 0.102f, 0.102f},
+              {1.060f, 0, 0.000f, 0.151f, 0.105f, 0.090f},  {1.130f, 0, 0.000f, 0.147f, 0.104f, 0.087f},
               {1.220f, 0, -0.004f, 0.155f, 0.108f, 0.100f}, {1.310f, 0, -0.008f, 0.168f, 0.116f, 0.112f},
               {1.380f, 0, -0.014f, 0.172f, 0.104f, 0.113f}, {1.440f, 0, -0.022f, 0.155f, 0.074f, 0.094f},
               {1.478f, 0, -0.028f, 0.112f, 0.052f, 0.070f}};
@@ -236,7 +259,8 @@ class Builder {
                 s(0.025f));
     }
     head.join(ball(fromHead(0, -0.109f, 0.078f), headSize(0.024f * jaw, 0.0175f, 0.018f)), s(0.018f));
-    const Solid column = cone(Vec3(0, m_.neck - 0.04f, -0.036f), fromHead(0, -0.06f, -0.014f), neck * 1.06f, neck);
+    const Solid column =
+        cone(Vec3(0, m_.neck - 0.04f, -0.036f), fromHead(0, -0.06f, -0.014f), neck * 1.06f, neck);
     head.join(column, s(0.028f));
     figure_.neck_solids.join(column, 0.0f);
   }
@@ -249,7 +273,9 @@ class Builder {
                      0.0115f * soft, 0.0095f * soft),
                 s(0.018f));
       head.join(ball(fromHead(side * 0.043f, -0.036f, 0.058f), headSize(0.024f, 0.020f, 0.026f)), s(0.028f));
-      head.join(ball(fromHead(side * 0.034f, -0.068f, 0.052f), headSize(0.026f * (female_ ? 0.72f : 1.0f), 0.034f, 0.030f)), s(0.030f));
+      head.join(ball(fromHead(side * 0.034f, -0.068f, 0.052f),
+                     headSize(0.026f * (female_ ? 0.72f : 1.0f), 0.034f, 0.030f)),
+                s(0.030f));
     }
     for (const float side : {1.0f, -1.0f}) {
       head.carve(ball(fromHead(side * 0.032f, -0.0085f, 0.107f), headSize(0.022f, 0.0135f, 0.0200f)),
@@ -284,14 +310,18 @@ class Builder {
     const Vec3 front(0.0f, 0.0f, 1.0f);
     const float l = m_.upper_arm / 0.295f, f = m_.forearm / 0.258f;
     arm.join(loft(loftFrame(joint(kUpperArm), joint(kLowerArm), front),
-                  {{0.000f * l, 0, 0, 0.049f, 0.053f, 0.053f}, {0.080f * l, 0, 0, 0.050f, 0.053f, 0.051f},
+                  {{0.000f * l, 0, 0, 0.049f, 0.053f, 0.053f},
+                   {0.080f * l, 0, 0, 0.050f, 0.053f, 0.051f},
                    {0.165f * l, 0, 0.002f, 0.045f, 0.049f, 0.047f},
-                   {0.245f * l, 0, 0, 0.039f, 0.041f, 0.041f}, {0.295f * l, 0, 0, 0.038f, 0.039f, 0.040f}},
+                   {0.245f * l, 0, 0, 0.039f, 0.041f, 0.041f},
+                   {0.295f * l, 0, 0, 0.038f, 0.039f, 0.040f}},
                   limb_),
              0.0f);
     arm.join(loft(loftFrame(joint(kLowerArm), joint(kHand), front),
-                  {{0.000f * f, 0, 0, 0.037f, 0.038f, 0.039f}, {0.060f * f, 0, 0.002f, 0.041f, 0.043f, 0.040f},
-                   {0.150f * f, 0, 0, 0.033f, 0.036f, 0.034f}, {0.220f * f, 0, 0, 0.0235f, 0.0295f, 0.0285f},
+                  {{0.000f * f, 0, 0, 0.037f, 0.038f, 0.039f},
+                   {0.060f * f, 0, 0.002f, 0.041f, 0.043f, 0.040f},
+                   {0.150f * f, 0, 0, 0.033f, 0.036f, 0.034f},
+                   {0.220f * f, 0, 0, 0.0235f, 0.0295f, 0.0285f},
                    {0.258f * f, 0, 0, 0.0205f, 0.0280f, 0.0270f}},
                   limb_),
              s(0.02f));
@@ -300,8 +330,10 @@ class Builder {
   void buildHand() {
     SolidGroup& hand = figure_.hand_solids;
     const float size = hand_size_;
-    std::vector<LoftRow> palm = {{-0.020f, 0, 0, 0.0195f, 0.027f, 0.026f}, {0.010f, 0, 0, 0.0185f, 0.029f, 0.028f},
-                                 {0.045f, 0, 0, 0.0165f, 0.037f, 0.036f}, {0.080f, 0, 0, 0.0135f, 0.040f, 0.038f},
+    std::vector<LoftRow> palm = {{-0.020f, 0, 0, 0.0195f, 0.027f, 0.026f},
+                                 {0.010f, 0, 0, 0.0185f, 0.029f, 0.028f},
+                                 {0.045f, 0, 0, 0.0165f, 0.037f, 0.036f},
+                                 {0.080f, 0, 0, 0.0135f, 0.040f, 0.038f},
                                  {0.098f, 0, 0, 0.0105f, 0.037f, 0.035f}};
     for (LoftRow& row : palm) row.along *= size;
     const float thick = 0.5f * (size + limb_);
@@ -337,9 +369,12 @@ class Builder {
                   limb_),
              0.0f);
     leg.join(loft(loftFrame(joint(kCalf), joint(kFoot), front),
-                  {{0.000f * c, 0, 0, 0.052f, 0.054f, 0.052f}, {0.060f * c, 0, 0, 0.051f, 0.048f, 0.058f},
-                   {0.130f * c, 0, 0, 0.054f, 0.044f, 0.067f}, {0.220f * c, 0, 0, 0.047f, 0.041f, 0.054f},
-                   {0.320f * c, 0, 0, 0.036f, 0.037f, 0.039f}, {0.400f * c, 0, 0, 0.0325f, 0.0365f, 0.040f}},
+                  {{0.000f * c, 0, 0, 0.052f, 0.054f, 0.052f},
+                   {0.060f * c, 0, 0, 0.051f, 0.048f, 0.058f},
+                   {0.130f * c, 0, 0, 0.054f, 0.044f, 0.067f},
+                   {0.220f * c, 0, 0, 0.047f, 0.041f, 0.054f},
+                   {0.320f * c, 0, 0, 0.036f, 0.037f, 0.039f},
+                   {0.400f * c, 0, 0, 0.0325f, 0.0365f, 0.040f}},
                   limb_ * (female_ ? 1.06f : 1.0f)),
              s(0.025f));
     leg.join(ball(m_.knee + Vec3(0, 0.004f, 0.040f * limb_), Vec3(0.030f, 0.038f, 0.017f) * limb_), s(0.02f));
@@ -349,14 +384,12 @@ class Builder {
     SolidGroup& foot = figure_.foot_solids;
     const float size = m_.ball.z / 0.105f;
     const float wide = 0.5f * (size + limb_);
-    const LoftFrame frame = loftFrame(s(Vec3(m_.ankle.x, 0, 0)), s(Vec3(m_.ankle.x + 0.10f, 0, 1)),
-                                      Vec3(0.0f, 1.0f, 0.0f));
-    std::vector<LoftRow> rows = {{-0.055f, 0, 0.036f, 0.029f, 0.042f, 0.046f},
-                                 {-0.018f, 0, 0.042f, 0.032f, 0.050f, 0.052f},
-                                 {0.040f, 0, 0.036f, 0.036f, 0.040f, 0.046f},
-                                 {0.095f, 0, 0.024f, 0.045f, 0.026f, 0.034f},
-                                 {0.130f, 0, 0.016f, 0.045f, 0.018f, 0.026f},
-                                 {0.158f, 0, 0.012f, 0.037f, 0.013f, 0.020f}};
+    const LoftFrame frame =
+        loftFrame(s(Vec3(m_.ankle.x, 0, 0)), s(Vec3(m_.ankle.x + 0.10f, 0, 1)), Vec3(0.0f, 1.0f, 0.0f));
+    std::vector<LoftRow> rows = {
+        {-0.055f, 0, 0.036f, 0.029f, 0.042f, 0.046f}, {-0.018f, 0, 0.042f, 0.032f, 0.050f, 0.052f},
+        {0.040f, 0, 0.036f, 0.036f, 0.040f, 0.046f},  {0.095f, 0, 0.024f, 0.045f, 0.026f, 0.034f},
+        {0.130f, 0, 0.016f, 0.045f, 0.018f, 0.026f},  {0.158f, 0, 0.012f, 0.037f, 0.013f, 0.020f}};
     for (LoftRow& row : rows) {
       row.along *= size;
       row.center_z *= size;
@@ -366,9 +399,9 @@ class Builder {
                    0.038f * limb_),
               s(0.03f));
     for (const float side : {1.0f, -1.0f}) {
-      foot.join(ball(m_.ankle + Vec3(side * 0.030f * limb_, side * -0.004f, 0.004f),
-                     Vec3(0.010f, 0.014f, 0.013f)),
-                s(0.015f));
+      foot.join(
+          ball(m_.ankle + Vec3(side * 0.030f * limb_, side * -0.004f, 0.004f), Vec3(0.010f, 0.014f, 0.013f)),
+          s(0.015f));
     }
     // Toes, the big one inside.
     for (int toe = 0; toe < 5; ++toe) {

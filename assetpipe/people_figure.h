@@ -15,12 +15,36 @@ enum class Sex : std::uint8_t { kFemale, kMale };
 /// The joints of a person, in the skin's order; the same names and order for everybody. Of paired
 /// joints this names the left one, the right one follows at +kRightArm or +kRightLeg.
 enum BodyJoint : std::uint16_t {
-  kRoot, kPelvis, kSpine1, kSpine2, kSpine3,
-  kClavicle, kUpperArm, kLowerArm, kHand,
-  kIndex1, kIndex2, kIndex3, kMiddle1, kMiddle2, kMiddle3,
-  kPinky1, kPinky2, kPinky3, kRing1, kRing2, kRing3, kThumb1, kThumb2, kThumb3,
-  kNeck = kThumb3 + 20, kHead,
-  kThigh, kCalf, kFoot, kBall,
+  kRoot,
+  kPelvis,
+  kSpine1,
+  kSpine2,
+  kSpine3,
+  kClavicle,
+  kUpperArm,
+  kLowerArm,
+  kHand,
+  kIndex1,
+  kIndex2,
+  kIndex3,
+  kMiddle1,
+  kMiddle2,
+  kMiddle3,
+  kPinky1,
+  kPinky2,
+  kPinky3,
+  kRing1,
+  kRing2,
+  kRing3,
+  kThumb1,
+  kThumb2,
+  kThumb3,
+  kNeck = kThumb3 + 20,
+  kHead,
+  kThigh,
+  kCalf,
+  kFoot,
+  kBall,
   kBodyJointCount = kBall + 5
 };
 inline constexpr std::uint16_t kRightArm = 19;  ///< kClavicle + kRightArm is clavicle_r
@@ -40,11 +64,11 @@ struct FigureOptions {
 /// so that neighbours overlap: regions are cut by the border functions of people_body.h.
 struct Figure {
   FigureOptions options;
-  float scale = 1.0f;                             ///< of this person to the reference figure
-  float trunk = 1.0f, limb = 1.0f;                ///< thickness of trunk and limbs to the reference man's
-  Vec3 head_center{0.0f};                         ///< between the ears, metres
-  float head_size = 1.0f;                         ///< of this head to the reference man's
-  std::array<Vec3, kBodyJointCount> joints{};     ///< metres, at rest
+  float scale = 1.0f;                          ///< of this person to the reference figure
+  float trunk = 1.0f, limb = 1.0f;             ///< thickness of trunk and limbs to the reference man's
+  Vec3 head_center{0.0f};                      ///< between the ears, metres
+  float head_size = 1.0f;                      ///< of this head to the reference man's
+  std::array<Vec3, kBodyJointCount> joints{};  ///< metres, at rest
   Vec3 head_top{0.0f}, hand_end{0.0f}, toe_end{0.0f};  ///< where the last bones end (left)
   SolidGroup head_solids, neck_solids, torso_solids, arm_solids, hand_solids, leg_solids, foot_solids;
 

@@ -59,14 +59,18 @@ std::vector<BorderEdge> borderEdges(const FieldMesh& mesh) {
 class PrimitiveBuilder {
  public:
   PrimitiveBuilder(const Figure& figure, const GarmentDesign& design, const FieldMesh& mesh)
-      : figure_(figure), design_(design), mesh_(mesh), primitives_(design.materials.size()),
+      : figure_(figure),
+        design_(design),
+        mesh_(mesh),
+        primitives_(design.materials.size()),
         numbers_(design.materials.size(), std::vector<std::uint32_t>(mesh.positions.size() * 3, ~0u)) {}
 
   void addFaces() {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       const std::uint8_t label = mesh_.labels[f];
       const Triangle& face = mesh_.faces[f];
-      primitives_[label].faces.push_back({outer(label, face[0]), outer(label, face[1]), outer(label, face[2])});
+      primitives_[label].faces.push_back(
+          {outer(label, face[0]), outer(label, face[1]), outer(label, face[2])});
     }
   }
 
@@ -149,14 +153,16 @@ MadeGarment makeGarment(const Figure& figure, const GarmentDesign& design) {
   made.node.name = "garment." + (design.name.starts_with("cloth.") ? design.name.substr(6) : design.name);
   made.node.primitives = builder.take();
   if (design.covers_skin) {
-    made.cover = [shell = design.shell, opening = design.opening, margin = design.cover_margin](const Vec3& p) {
+    made.cover = [shell = design.shell, opening = design.opening,
+                  margin = design.cover_margin](const Vec3& p) {
       return shell(p) + kCoverDepth < 0.0f ? std::max(-opening(p) / margin, 0.0f) : 0.0f;
     };
   }
   return made;
 }
 
-std::vector<std::uint8_t> findCoveredFaces(const FieldMesh& body, const std::vector<const MadeGarment*>& garments) {
+std::vector<std::uint8_t> findCoveredFaces(const FieldMesh& body,
+                                           const std::vector<const MadeGarment*>& garments) {
   // How far a point lies from the edges adds up over what covers it: the ankle is under the trousers'
   // hem and in the shoe, near the edge of each and yet well hidden.
   std::vector<float> depths(body.positions.size(), 0.0f);

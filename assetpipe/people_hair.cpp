@@ -42,7 +42,8 @@ float napeLine(const Vec3& h, float nape) {
 /// Grooves as combed hair has them, metres of the reference head.
 float strands(const Vec3& h, float depth) {
   const float around = std::atan2(h.x, -h.z + 0.02f);
-  return depth * (0.6f * std::sin(26.0f * around + 14.0f * h.y) + 0.4f * std::sin(43.0f * around - 21.0f * h.y));
+  return depth *
+         (0.6f * std::sin(26.0f * around + 14.0f * h.y) + 0.4f * std::sin(43.0f * around - 21.0f * h.y));
 }
 
 GarmentDesign startHair(const Figure& f, const char* name, const Palette& palette) {
@@ -89,8 +90,10 @@ GarmentDesign designBob(const Figure& f, const Palette& palette) {
   const auto row = [size](float y, float z, float side, float front, float back) {
     return LoftRow{y * size, 0, z * size, side * size, front * size, back * size};
   };
-  hair.join(Solid::loft(frame, {row(-0.150f, -0.022f, 0.078f, 0.050f, 0.062f), row(-0.105f, -0.016f, 0.094f, 0.062f, 0.082f),
-                                row(-0.050f, -0.012f, 0.098f, 0.066f, 0.100f), row(0.005f, -0.010f, 0.093f, 0.070f, 0.104f)}),
+  hair.join(Solid::loft(frame, {row(-0.150f, -0.022f, 0.078f, 0.050f, 0.062f),
+                                row(-0.105f, -0.016f, 0.094f, 0.062f, 0.082f),
+                                row(-0.050f, -0.012f, 0.098f, 0.066f, 0.100f),
+                                row(0.005f, -0.010f, 0.093f, 0.070f, 0.104f)}),
             0.03f * size);
   design.shell = [&f, hair, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
@@ -100,9 +103,11 @@ GarmentDesign designBob(const Figure& f, const Palette& palette) {
     const Vec3 h = onHead(f, p);
     // The curtain falls from the parting in front of the ears; its tips turn in under the jaw.
     const float side = std::abs(h.x);
-    const float face = h.z - (0.032f + 0.70f * std::max(h.y - 0.020f, 0.0f)) - 0.12f * std::max(0.05f - side, 0.0f);
+    const float face =
+        h.z - (0.032f + 0.70f * std::max(h.y - 0.020f, 0.0f)) - 0.12f * std::max(0.05f - side, 0.0f);
     const float throat = std::min(h.z + 0.030f, 0.055f - side + 0.0f * h.y);
-    return size * std::max({face, -0.118f - h.y + 0.25f * std::max(h.z, 0.0f), h.y < -0.02f ? throat : -1.0f});
+    return size *
+           std::max({face, -0.118f - h.y + 0.25f * std::max(h.z, 0.0f), h.y < -0.02f ? throat : -1.0f});
   };
   design.face_count = 1200;
   return design;
@@ -122,7 +127,8 @@ GarmentDesign designBun(const Figure& f, const Palette& palette) {
   };
   design.opening = [&f, size, knot](const Vec3& p) {
     const Vec3 h = onHead(f, p);
-    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)), knot.distance(p) - 0.008f * size);
+    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)),
+                    knot.distance(p) - 0.008f * size);
   };
   design.face_count = 900;
   return design;
@@ -137,9 +143,12 @@ GarmentDesign designPonytail(const Figure& f, const Palette& palette) {
   const auto at = [&f](float y, float z) { return fromHead(f, Vec3(0.0f, y, z)); };
   SolidGroup tail;
   tail.join(Solid::roundCone(at(0.052f, -0.110f), at(0.062f, -0.140f), 0.018f * size, 0.020f * size), 0.0f);
-  tail.join(Solid::roundCone(at(0.060f, -0.142f), at(-0.010f, -0.178f), 0.021f * size, 0.032f * size), 0.02f * size);
-  tail.join(Solid::roundCone(at(-0.010f, -0.178f), at(-0.100f, -0.170f), 0.031f * size, 0.026f * size), 0.02f * size);
-  tail.join(Solid::roundCone(at(-0.100f, -0.170f), at(-0.185f, -0.150f), 0.025f * size, 0.006f * size), 0.02f * size);
+  tail.join(Solid::roundCone(at(0.060f, -0.142f), at(-0.010f, -0.178f), 0.021f * size, 0.032f * size),
+            0.02f * size);
+  tail.join(Solid::roundCone(at(-0.010f, -0.178f), at(-0.100f, -0.170f), 0.031f * size, 0.026f * size),
+            0.02f * size);
+  tail.join(Solid::roundCone(at(-0.100f, -0.170f), at(-0.185f, -0.150f), 0.025f * size, 0.006f * size),
+            0.02f * size);
   design.shell = [&f, hair, tail, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
     const float grooves = size * strands(h, 0.0010f);
@@ -147,15 +156,18 @@ GarmentDesign designPonytail(const Figure& f, const Palette& palette) {
   };
   design.opening = [&f, size, tail](const Vec3& p) {
     const Vec3 h = onHead(f, p);
-    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)), tail.distance(p) - 0.008f * size);
+    return std::min(size * std::max(hairline(h, -0.012f), napeLine(h, -0.066f)),
+                    tail.distance(p) - 0.008f * size);
   };
   const Field tie = [&f, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
-    return size * (0.010f - std::abs(glm::dot(h - Vec3(0.0f, 0.057f, -0.124f), glm::normalize(Vec3(0.0f, 0.25f, -0.97f)))));
+    return size * (0.010f - std::abs(glm::dot(h - Vec3(0.0f, 0.057f, -0.124f),
+                                              glm::normalize(Vec3(0.0f, 0.25f, -0.97f)))));
   };
   design.seams = {tie};
   design.label = [&f, tie](const Vec3& p) {
-    return static_cast<std::uint8_t>(tie(p) > 0.0f && onHead(f, p).z < -0.108f && onHead(f, p).y > 0.03f ? 1 : 0);
+    return static_cast<std::uint8_t>(tie(p) > 0.0f && onHead(f, p).z < -0.108f && onHead(f, p).y > 0.03f ? 1
+                                                                                                         : 0);
   };
   design.low = fromHead(f, Vec3(-0.16f, -0.22f, -0.25f));
   design.face_count = 1100;
@@ -170,7 +182,9 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   dome.join(skullShell(f, {0.0f, 0.026f, -0.006f}, {0.0925f, 0.1015f, 0.1130f}), 0.0f);
   SolidGroup visor;
   const Mat3 tilt = Mat3(glm::mat3_cast(glm::angleAxis(radians(12.0f), Vec3(1, 0, 0))));
-  visor.join(Solid::ellipsoid(fromHead(f, Vec3(0.0f, 0.033f, 0.098f)), Vec3(0.079f, 0.0075f, 0.090f) * size, tilt), 0.0f);
+  visor.join(
+      Solid::ellipsoid(fromHead(f, Vec3(0.0f, 0.033f, 0.098f)), Vec3(0.079f, 0.0075f, 0.090f) * size, tilt),
+      0.0f);
   const auto edge = [&f, size](const Vec3& p) {
     const Vec3 h = onHead(f, p);
     return size * (0.030f + 0.10f * h.z - h.y);
@@ -178,7 +192,9 @@ GarmentDesign designCap(const Figure& f, const Palette& palette) {
   design.shell = [dome, visor, edge, size](const Vec3& p) {
     return smoothMin(dome.distance(p), visor.distance(p), 0.006f * size);
   };
-  design.opening = [edge, visor, size](const Vec3& p) { return std::min(edge(p), visor.distance(p) - 0.002f * size); };
+  design.opening = [edge, visor, size](const Vec3& p) {
+    return std::min(edge(p), visor.distance(p) - 0.002f * size);
+  };
   const Field rim = [dome, size](const Vec3& p) { return dome.distance(p) - 0.003f * size; };
   design.seams = {rim};
   design.label = [rim](const Vec3& p) { return static_cast<std::uint8_t>(rim(p) > 0.0f ? 1 : 0); };

@@ -22,7 +22,8 @@ float sleeveEnd(const Figure& f, const Vec3& p, float part) {
   const Vec3 left = toLeft(p);
   const Vec3 shoulder = f.joints[kUpperArm], elbow = f.joints[kLowerArm], wrist = f.joints[kHand];
   const Vec3 from = part < 1.0f ? shoulder : elbow, to = part < 1.0f ? elbow : wrist;
-  const float along = glm::dot(left - glm::mix(from, to, part < 1.0f ? part : part - 1.0f), glm::normalize(to - from));
+  const float along =
+      glm::dot(left - glm::mix(from, to, part < 1.0f ? part : part - 1.0f), glm::normalize(to - from));
   const float on_arm = std::min(f.torso(p), f.leg(p)) - std::min(f.arm(p), f.hand(p));
   return std::min(along, on_arm);
 }
@@ -85,13 +86,19 @@ SolidGroup tshirtDrape(const Figure& f, float looser) {
   SolidGroup group;
   const float l = looser;
   if (f.isFemale()) {
-    group.join(drape(f, {{0.86f, 0, 0, 0.160f + l, 0.094f + l, 0.100f + l}, {0.96f, 0, 0, 0.152f + l, 0.096f + l, 0.094f + l},
-                         {1.04f, 0, 0, 0.138f + l, 0.094f + l, 0.088f + l}, {1.13f, 0, 0, 0.134f + l, 0.100f + l, 0.088f + l},
-                         {1.20f, 0, -0.004f, 0.135f + l, 0.104f + l, 0.090f + l}}), 0.0f);
+    group.join(drape(f, {{0.86f, 0, 0, 0.160f + l, 0.094f + l, 0.100f + l},
+                         {0.96f, 0, 0, 0.152f + l, 0.096f + l, 0.094f + l},
+                         {1.04f, 0, 0, 0.138f + l, 0.094f + l, 0.088f + l},
+                         {1.13f, 0, 0, 0.134f + l, 0.100f + l, 0.088f + l},
+                         {1.20f, 0, -0.004f, 0.135f + l, 0.104f + l, 0.090f + l}}),
+               0.0f);
   } else {
-    group.join(drape(f, {{0.88f, 0, 0, 0.160f + l, 0.104f + l, 0.108f + l}, {1.00f, 0, 0, 0.160f + l, 0.107f + l, 0.103f + l},
-                         {1.12f, 0, 0, 0.157f + l, 0.109f + l, 0.100f + l}, {1.24f, 0, -0.004f, 0.162f + l, 0.113f + l, 0.106f + l},
-                         {1.32f, 0, -0.008f, 0.166f + l, 0.116f + l, 0.112f + l}}), 0.0f);
+    group.join(drape(f, {{0.88f, 0, 0, 0.160f + l, 0.104f + l, 0.108f + l},
+                         {1.00f, 0, 0, 0.160f + l, 0.107f + l, 0.103f + l},
+                         {1.12f, 0, 0, 0.157f + l, 0.109f + l, 0.100f + l},
+                         {1.24f, 0, -0.004f, 0.162f + l, 0.113f + l, 0.106f + l},
+                         {1.32f, 0, -0.008f, 0.166f + l, 0.116f + l, 0.112f + l}}),
+               0.0f);
   }
   return group;
 }
@@ -134,7 +141,8 @@ GarmentDesign designShirt(const Figure& f, const Palette& palette) {
   // The tie hangs from the collar to the belt, a knot above.
   const Field tie = [&f, s](const Vec3& p) {
     const float down = (f.joints[kNeck].y - 0.015f * s - p.y) / s;
-    const float half = down < 0.045f ? 0.019f - 0.1f * std::max(down, 0.0f) : 0.0145f + 0.060f * (down - 0.045f);
+    const float half =
+        down < 0.045f ? 0.019f - 0.1f * std::max(down, 0.0f) : 0.0145f + 0.060f * (down - 0.045f);
     const float side = half * s - std::abs(p.x);
     return std::min({side, p.z - 0.02f * s, down * s + 0.028f * s, 0.46f * s - down * s - std::abs(p.x)});
   };
@@ -174,7 +182,8 @@ GarmentDesign designBlouse(const Figure& f, const Palette& palette) {
 GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.hoodie";
-  design.materials = {clothMaterial("cloth.hoodie", palette.main), clothMaterial("cloth.hoodie.cuffs", palette.second)};
+  design.materials = {clothMaterial("cloth.hoodie", palette.main),
+                      clothMaterial("cloth.hoodie.cuffs", palette.second)};
   const float s = f.scale;
   TopCut cut;
   cut.offset = 0.019f;
@@ -188,8 +197,12 @@ GarmentDesign designHoodie(const Figure& f, const Palette& palette) {
   const auto at = [&](float x, float y, float z) { return Vec3(x * wide * s, neck + y * s, z * s); };
   SolidGroup hood;
   hood.join(Solid::ellipsoid(at(0.0f, -0.004f, -0.104f), Vec3(0.098f * wide, 0.070f, 0.046f) * s), 0.0f);
-  hood.join(Solid::roundCone(at(0.058f, 0.026f, -0.088f), at(0.090f, 0.014f, -0.018f), 0.036f * s, 0.026f * s), 0.03f * s);
-  hood.join(Solid::roundCone(at(0.090f, 0.014f, -0.018f), at(0.042f, -0.040f, 0.050f), 0.024f * s, 0.009f * s), 0.02f * s);
+  hood.join(
+      Solid::roundCone(at(0.058f, 0.026f, -0.088f), at(0.090f, 0.014f, -0.018f), 0.036f * s, 0.026f * s),
+      0.03f * s);
+  hood.join(
+      Solid::roundCone(at(0.090f, 0.014f, -0.018f), at(0.042f, -0.040f, 0.050f), 0.024f * s, 0.009f * s),
+      0.02f * s);
   cutTop(design, f, cut, hanging, sleeves(f, 0.062f, 0.056f, 0.046f));
   const float head_limit = 0.060f;
   const Field body_opening = design.opening;
@@ -216,7 +229,8 @@ GarmentDesign designJacket(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.jacket";
   // One name: a tint that replaces the colour makes cloth and lapels alike.
-  design.materials = {clothMaterial("cloth.jacket", palette.main), clothMaterial("cloth.jacket", palette.second)};
+  design.materials = {clothMaterial("cloth.jacket", palette.main),
+                      clothMaterial("cloth.jacket", palette.second)};
   const float s = f.scale;
   TopCut cut;
   cut.offset = 0.017f;
@@ -250,7 +264,8 @@ GarmentDesign designJacket(const Figure& f, const Palette& palette) {
 GarmentDesign designDress(const Figure& f, const Palette& palette) {
   GarmentDesign design;
   design.name = "cloth.dress";
-  design.materials = {clothMaterial("cloth.dress", palette.main), clothMaterial("cloth.dress.belt", palette.second)};
+  design.materials = {clothMaterial("cloth.dress", palette.main),
+                      clothMaterial("cloth.dress.belt", palette.second)};
   const float s = f.scale;
   const float waist = f.joints[kSpine1].y + 0.055f * s, knee = f.joints[kCalf].y;
   const float hem_y = knee - 0.01f * s;
@@ -259,13 +274,15 @@ GarmentDesign designDress(const Figure& f, const Palette& palette) {
     return LoftRow{y, 0, 0, side * s * f.trunk, front * s * f.trunk, back * s * f.trunk};
   };
   const float drop = waist - hem_y;
-  skirt.join(Solid::loft({Vec3(0.0f), Mat3(1.0f)},
-                         {row(hem_y - 0.03f * s, 0.275f, 0.215f, 0.225f), row(waist - 0.62f * drop, 0.228f, 0.168f, 0.180f),
-                          row(waist - 0.30f * drop, 0.180f, 0.122f, 0.130f), row(waist, 0.124f, 0.088f, 0.080f)}),
+  skirt.join(Solid::loft({Vec3(0.0f), Mat3(1.0f)}, {row(hem_y - 0.03f * s, 0.275f, 0.215f, 0.225f),
+                                                    row(waist - 0.62f * drop, 0.228f, 0.168f, 0.180f),
+                                                    row(waist - 0.30f * drop, 0.180f, 0.122f, 0.130f),
+                                                    row(waist, 0.124f, 0.088f, 0.080f)}),
              0.0f);
   design.shell = [&f, skirt, s](const Vec3& p) {
     // Straps lie closer than the rest.
-    const float offset = std::lerp(0.007f, 0.0035f, smoothStep(-0.10f * s, -0.02f * s, p.y - f.joints[kUpperArm].y));
+    const float offset =
+        std::lerp(0.007f, 0.0035f, smoothStep(-0.10f * s, -0.02f * s, p.y - f.joints[kUpperArm].y));
     const float value = smoothMin(f.torso(p), f.neck_solids.distance(p), 0.035f * s) - offset;
     // Folds run down from the waist and grow towards the hem.
     const float fall = smoothStep(0.0f, 0.45f * s, f.joints[kSpine1].y - p.y);
@@ -274,9 +291,11 @@ GarmentDesign designDress(const Figure& f, const Palette& palette) {
   };
   design.opening = [&f, hem_y, s](const Vec3& p) {
     const Vec3 shoulder = f.joints[kUpperArm];
-    const float armhole = std::min(glm::dot(toLeft(p) - shoulder + Vec3(0.040f * s, 0, 0), glm::normalize(Vec3(1.0f, 0.25f, 0.0f))),
-                                   p.y - (shoulder.y - 0.085f * s));
-    const Vec3 scoop = (p - Vec3(0.0f, f.joints[kNeck].y + 0.010f * s, 0.055f * s)) / (s * Vec3(0.088f, 0.090f, 0.115f));
+    const float armhole = std::min(
+        glm::dot(toLeft(p) - shoulder + Vec3(0.040f * s, 0, 0), glm::normalize(Vec3(1.0f, 0.25f, 0.0f))),
+        p.y - (shoulder.y - 0.085f * s));
+    const Vec3 scoop =
+        (p - Vec3(0.0f, f.joints[kNeck].y + 0.010f * s, 0.055f * s)) / (s * Vec3(0.088f, 0.090f, 0.115f));
     const float scooped = (1.0f - glm::length(scoop)) * 0.088f * s;
     return std::max({hem_y - p.y, armhole, scooped, neckline(f, p, 0.010f, 0.075f)});
   };

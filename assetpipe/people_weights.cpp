@@ -17,7 +17,8 @@ using Weights = std::array<float, kBodyJointCount>;
 SkinBinding toBinding(const Weights& weights) {
   std::array<std::uint16_t, kBodyJointCount> order;
   std::iota(order.begin(), order.end(), std::uint16_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) { return weights[a] > weights[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint16_t a, std::uint16_t b) { return weights[a] > weights[b]; });
   SkinBinding skin;
   float sum = 0.0f;
   for (std::size_t i = 0; i < 4; ++i) sum += std::max(weights[order[i]] - weights[order[4]], 0.0f);
@@ -38,7 +39,10 @@ SkinBinding toBinding(const Weights& weights) {
 class Weigher {
  public:
   Weigher(const Figure& figure, const Vec3& p)
-      : f_(figure), p_(p), left_(std::abs(p.x), p.y, p.z), s_(figure.scale),
+      : f_(figure),
+        p_(p),
+        left_(std::abs(p.x), p.y, p.z),
+        s_(figure.scale),
         arm_offset_(p.x < 0.0f ? kRightArm : 0) {}
 
   Weights run() {
@@ -105,7 +109,8 @@ class Weigher {
     const Vec3 upper = glm::normalize(joint(kLowerArm) - joint(kUpperArm));
     const Vec3 lower = glm::normalize(joint(kHand) - joint(kLowerArm));
     const float half = 0.038f * s_;
-    const float elbow = smoothStep(-half, half, glm::dot(left_ - joint(kLowerArm), glm::normalize(upper + lower)));
+    const float elbow =
+        smoothStep(-half, half, glm::dot(left_ - joint(kLowerArm), glm::normalize(upper + lower)));
     const float wrist = smoothStep(-0.020f * s_, 0.020f * s_, glm::dot(left_ - joint(kHand), lower));
     add(kUpperArm + arm_offset_, share * (1.0f - elbow));
     add(kLowerArm + arm_offset_, share * elbow * (1.0f - wrist));
@@ -130,7 +135,8 @@ class Weigher {
       const float half = (bone == 0 ? (is_thumb ? 0.018f : 0.010f) : 0.006f) * s_;
       const Vec3 before = bone == 0 ? a - joint(kHand) : a - joint(first + bone - 1);
       const Vec3 axis = glm::normalize(glm::normalize(before) + glm::normalize(b - a));
-      grip.along += smoothStep(-half, half, glm::dot(left_ - a, axis) - (bone == 0 && is_thumb ? half : 0.0f));
+      grip.along +=
+          smoothStep(-half, half, glm::dot(left_ - a, axis) - (bone == 0 && is_thumb ? half : 0.0f));
     }
     const float radius = (is_thumb ? 0.016f : 0.0105f) * s_;
     grip.nearness = 1.0f - smoothStep(radius, radius * 1.7f, best);
@@ -166,7 +172,8 @@ class Weigher {
     const Vec3 lower = glm::normalize(joint(kFoot) - joint(kCalf));
     const float half = 0.055f * s_;
     const float knee = smoothStep(-half, half, glm::dot(left_ - joint(kCalf), glm::normalize(upper + lower)));
-    const float ankle = smoothStep(-0.035f * s_, 0.030f * s_, joint(kFoot).y - p_.y + 0.25f * (p_.z - joint(kFoot).z));
+    const float ankle =
+        smoothStep(-0.035f * s_, 0.030f * s_, joint(kFoot).y - p_.y + 0.25f * (p_.z - joint(kFoot).z));
     const float ball = smoothStep(-0.022f * s_, 0.022f * s_, p_.z - joint(kBall).z);
     // At the very top the pelvis holds the leg's end inside the hip.
     const float hip = smoothStep(-0.02f * s_, 0.10f * s_, joint(kThigh).y - p_.y);

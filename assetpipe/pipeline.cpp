@@ -80,7 +80,8 @@ OutfitFile readOutfit(const fs::path& file, const TaggingTemplate& body, const P
     outfit.bytes = readFile(file);
     GltfReadOptions as_numbered;
     as_numbered.weld = false;
-    item = itemFromAsset(readGlb(outfit.bytes, file.string(), as_numbered), body.body, body.geometry_hash, file.string());
+    item = itemFromAsset(readGlb(outfit.bytes, file.string(), as_numbered), body.body, body.geometry_hash,
+                         file.string());
   } else {
     std::vector<std::string> warnings = raw.warnings;
     item = tagOutfit(raw, body.body, options.tag, itemName(file), file.string(), warnings);
@@ -147,8 +148,8 @@ ManifestTemplate templateEntry(const TaggingTemplate& body) {
 
 }  // namespace
 
-Manifest tagWardrobe(const fs::path& template_file, const std::vector<fs::path>& outfit_files, const fs::path& folder,
-                     const PipelineOptions& options) {
+Manifest tagWardrobe(const fs::path& template_file, const std::vector<fs::path>& outfit_files,
+                     const fs::path& folder, const PipelineOptions& options) {
   const TaggingTemplate body = readTemplate(template_file, options);
   const std::vector<OutfitFile> outfits = readOutfits(outfit_files, body, options);
   refuseSameNames(outfit_files, outfits);
@@ -167,7 +168,8 @@ Manifest tagWardrobe(const fs::path& template_file, const std::vector<fs::path>&
   return manifest;
 }
 
-Manifest addOutfits(const fs::path& folder, const std::vector<fs::path>& outfit_files, const PipelineOptions& options) {
+Manifest addOutfits(const fs::path& folder, const std::vector<fs::path>& outfit_files,
+                    const PipelineOptions& options) {
   Wardrobe wardrobe = loadWardrobe(folder);
   const TaggingTemplate body{std::move(wardrobe.body), wardrobe.geometry_hash};
   const std::vector<OutfitFile> outfits = readOutfits(outfit_files, body, options);
@@ -177,12 +179,14 @@ Manifest addOutfits(const fs::path& folder, const std::vector<fs::path>& outfit_
   WardrobeWriter writer(folder);
   std::optional<Manifest> manifest = writer.currentManifest();
   if (!manifest || manifest->body.geometry_hash != body.geometry_hash) {
-    throw InputError({folder.string(), "", "the wardrobe was replaced while outfits were being tagged", "run it again"});
+    throw InputError(
+        {folder.string(), "", "the wardrobe was replaced while outfits were being tagged", "run it again"});
   }
   for (std::size_t i = 0; i < outfits.size(); ++i) {
     const auto same_name = [&](const ManifestOutfit& other) { return other.name == outfits[i].entry.name; };
     if (std::any_of(manifest->outfits.begin(), manifest->outfits.end(), same_name)) {
-      throw InputError({outfit_files[i].string(), "", "the wardrobe has an outfit '" + outfits[i].entry.name + "' already",
+      throw InputError({outfit_files[i].string(), "",
+                        "the wardrobe has an outfit '" + outfits[i].entry.name + "' already",
                         "remove that first (`ensemble remove`), or rename the file"});
     }
   }
@@ -208,8 +212,9 @@ Manifest removeOutfits(const fs::path& folder, const std::vector<std::string>& n
       std::vector<std::string> known;
       for (const ManifestOutfit& outfit : manifest.outfits) known.push_back(outfit.name);
       const std::vector<std::string> nearest = nearestNames(name, known);
-      throw InputError({folder.string(), "", "the wardrobe has no outfit " + quotedName(name),
-                        nearest.empty() ? "there is none to remove" : "did you mean " + quotedList(nearest) + "?"});
+      throw InputError(
+          {folder.string(), "", "the wardrobe has no outfit " + quotedName(name),
+           nearest.empty() ? "there is none to remove" : "did you mean " + quotedList(nearest) + "?"});
     }
     manifest.outfits.erase(found);
   }

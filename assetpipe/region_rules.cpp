@@ -47,7 +47,8 @@ std::vector<RegionRule> readRegionRules(const std::string& file) {
     region.expectKeys({"materials", "joints", "faces"});
     RegionRule rule{region.key(), readNames(region, "materials"), readNames(region, "joints"), {}};
     if (const auto faces = region.find("faces")) {
-      for (const YamlValue& range : faces->items("a list of face numbers")) rule.faces.push_back(readRange(range));
+      for (const YamlValue& range : faces->items("a list of face numbers"))
+        rule.faces.push_back(readRange(range));
     }
     rules.push_back(std::move(rule));
   }

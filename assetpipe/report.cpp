@@ -17,7 +17,9 @@ std::uint64_t at(const std::array<std::uint64_t, 3>& values, Technique technique
 }
 
 /// "+6.0 %"
-std::string change(std::uint64_t value, std::uint64_t base) { return fmt::format("{:+.1f} %", (ratio(value, base) - 1) * 100); }
+std::string change(std::uint64_t value, std::uint64_t base) {
+  return fmt::format("{:+.1f} %", (ratio(value, base) - 1) * 100);
+}
 
 /// "full", "hidden", or the number of visible faces.
 std::string tagText(const RegionTag& tag) {
@@ -68,7 +70,8 @@ Report makeReport(const Wardrobe& wardrobe) {
   for (std::size_t i = 0; i < wardrobe.items.size(); ++i) {
     const Item& item = wardrobe.items[ItemId(i)];
     report.outfit_names.push_back(item.name);
-    report.outfits.push_back({item.garmentFaceCount(), item.visibleBodyFaceCount(), item.dedicatedFaceCount()});
+    report.outfits.push_back(
+        {item.garmentFaceCount(), item.visibleBodyFaceCount(), item.dedicatedFaceCount()});
     report.tags.push_back(item.tags.raw());
     combinations.push_back({ItemId(i)});
   }
@@ -102,11 +105,10 @@ nlohmann::ordered_json toJson(const Report& report) {
   Json techniques = Json::object();
   for (const Technique technique : kAllTechniques) {
     const std::uint64_t faces = report.faces[technique], bytes = at(report.bytes, technique);
-    techniques[toString(technique)] = {
-        {"faces", faces},
-        {"bytes", bytes},
-        {"faces_vs_naive", ratio(faces, report.faces[Technique::kNaive])},
-        {"bytes_vs_naive", ratio(bytes, at(report.bytes, Technique::kNaive))}};
+    techniques[toString(technique)] = {{"faces", faces},
+                                       {"bytes", bytes},
+                                       {"faces_vs_naive", ratio(faces, report.faces[Technique::kNaive])},
+                                       {"bytes_vs_naive", ratio(bytes, at(report.bytes, Technique::kNaive))}};
   }
   return {{"schema", "ensemble.report/1"},
           {"template_faces", report.template_faces},
@@ -129,10 +131,12 @@ std::string toTable(const Report& report) {
   }
   text += fmt::format("{:<{}} {:>8}", "template", name_width, "");
   for (const std::uint64_t faces : report.region_faces) text += fmt::format(" {:>8}", faces);
-  text += fmt::format("\n\n{:<12} {:>10} {:>10} {:>14} {:>10}\n", "technique", "faces", "vs naive", "mesh bytes", "vs naive");
+  text += fmt::format("\n\n{:<12} {:>10} {:>10} {:>14} {:>10}\n", "technique", "faces", "vs naive",
+                      "mesh bytes", "vs naive");
   for (const Technique technique : kAllTechniques) {
     text += fmt::format("{:<12} {:>10} {:>10} {:>14} {:>10}\n", toString(technique), report.faces[technique],
-                        change(report.faces[technique], report.faces[Technique::kNaive]), at(report.bytes, technique),
+                        change(report.faces[technique], report.faces[Technique::kNaive]),
+                        at(report.bytes, technique),
                         change(at(report.bytes, technique), at(report.bytes, Technique::kNaive)));
   }
   text += fmt::format("{:<12} {:>10} {:>10} {:>14}\n", "lower bound", "", "", report.lower_bound_bytes);
@@ -145,14 +149,15 @@ std::string toCsv(const Report& report) {
   text += "\n";
   for (std::size_t i = 0; i < report.outfits.size(); ++i) {
     const OutfitFaces& faces = report.outfits[i];
-    text += fmt::format("{},{},{},{},{}", csvField(report.outfit_names[i]), faces.garments, faces.visible_body,
-                        faces.dedicated, faces.garments + faces.visible_body);
+    text += fmt::format("{},{},{},{},{}", csvField(report.outfit_names[i]), faces.garments,
+                        faces.visible_body, faces.dedicated, faces.garments + faces.visible_body);
     for (const RegionTag& tag : report.tags[i]) text += "," + std::to_string(tag.visible_faces);
     text += "\n";
   }
   text += "technique,faces,bytes\n";
   for (const Technique technique : kAllTechniques) {
-    text += fmt::format("{},{},{}\n", toString(technique), report.faces[technique], at(report.bytes, technique));
+    text +=
+        fmt::format("{},{},{}\n", toString(technique), report.faces[technique], at(report.bytes, technique));
   }
   return text;
 }

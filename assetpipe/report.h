@@ -38,11 +38,11 @@ struct Report {
   std::uint64_t template_faces = 0;
   std::vector<std::string> outfit_names;
   std::vector<OutfitFaces> outfits;
-  std::vector<std::string> region_names;               ///< of the template
-  std::vector<std::vector<RegionTag>> tags;            ///< per outfit, per region
-  std::vector<std::uint64_t> region_faces;             ///< of the template
+  std::vector<std::string> region_names;     ///< of the template
+  std::vector<std::vector<RegionTag>> tags;  ///< per outfit, per region
+  std::vector<std::uint64_t> region_faces;   ///< of the template
   StoredFaces faces;
-  std::array<std::uint64_t, 3> bytes{};                ///< what the GPU holds for meshes
+  std::array<std::uint64_t, 3> bytes{};  ///< what the GPU holds for meshes
   std::uint64_t lower_bound_bytes = 0;
 };
 

@@ -50,24 +50,28 @@ struct PartWords {
 /// In order of precedence: a "hand index" is of the hand, a "fore arm" of the arm.
 const std::vector<PartWords>& partWords() {
   static const std::vector<PartWords> words = {
-      {"hands", {"hand", "finger", "fingers", "thumb", "index", "middle", "mid", "ring", "pinky", "little", "palm",
-                 "wrist", "metacarpal", "carpal"}},
-      {"feet", {"foot", "feet", "toe", "toes", "ball", "ankle", "heel", "metatarsals", "metatarsal", "tarsal"}},
-      {"head", {"head", "neck", "jaw", "eye", "eyes", "eyelid", "eyebrow", "brow", "tongue", "face", "lip", "lips",
-                "cheek", "nose", "nostril", "ear", "teeth", "chin", "mouth", "skull", "hair", "lid", "oris",
-                "orbicularis", "levator", "temporalis", "oculi", "risorius", "special"}},
+      {"hands",
+       {"hand", "finger", "fingers", "thumb", "index", "middle", "mid", "ring", "pinky", "little", "palm",
+        "wrist", "metacarpal", "carpal"}},
+      {"feet",
+       {"foot", "feet", "toe", "toes", "ball", "ankle", "heel", "metatarsals", "metatarsal", "tarsal"}},
+      {"head", {"head",    "neck",       "jaw",   "eye",      "eyes",   "eyelid", "eyebrow", "brow",
+                "tongue",  "face",       "lip",   "lips",     "cheek",  "nose",   "nostril", "ear",
+                "teeth",   "chin",       "mouth", "skull",    "hair",   "lid",    "oris",    "orbicularis",
+                "levator", "temporalis", "oculi", "risorius", "special"}},
       {"arms", {"arm", "arms", "upperarm", "lowerarm", "forearm", "elbow", "shldr"}},
       {"legs", {"leg", "legs", "upleg", "upperleg", "lowerleg", "thigh", "shin", "calf", "knee"}},
-      {"torso", {"spine", "pelvis", "hip", "hips", "chest", "clavicle", "collar", "shoulder", "torso", "abdomen",
-                 "breast", "pectoral", "waist", "rib", "ribs", "belly", "root", "trunk", "body"}},
+      {"torso",
+       {"spine", "pelvis", "hip", "hips", "chest", "clavicle", "collar", "shoulder", "torso", "abdomen",
+        "breast", "pectoral", "waist", "rib", "ribs", "belly", "root", "trunk", "body"}},
   };
   return words;
 }
 
 std::string displayName(const RawMeshNode& node) { return "'" + node.name + "'"; }
 
-std::vector<SourceFace> collectFaces(const RawAsset& asset, const SegmentOptions& options, const std::string& file,
-                                     std::vector<std::string>& warnings) {
+std::vector<SourceFace> collectFaces(const RawAsset& asset, const SegmentOptions& options,
+                                     const std::string& file, std::vector<std::string>& warnings) {
   std::vector<SourceFace> faces;
   bool found_node = options.body_node.empty();
   for (const RawMeshNode& node : asset.meshes) {
@@ -101,9 +105,9 @@ std::vector<std::string> materialNames(const RawAsset& asset) {
   std::vector<std::string> names;
   for (const RawMaterial& material : asset.materials) {
     const std::string_view plain = withoutBlenderSuffix(material.name);
-    const auto same = std::count_if(asset.materials.begin(), asset.materials.end(), [&](const RawMaterial& other) {
-      return withoutBlenderSuffix(other.name) == plain;
-    });
+    const auto same =
+        std::count_if(asset.materials.begin(), asset.materials.end(),
+                      [&](const RawMaterial& other) { return withoutBlenderSuffix(other.name) == plain; });
     names.emplace_back(same > 1 ? std::string_view(material.name) : plain);
   }
   return names;
@@ -130,7 +134,8 @@ std::vector<std::string> regionOfJoints(const RawSkeleton& skeleton) {
     part_of_bone[b] = bodyPartOfJoint(skeleton.bones[b].name);
     any_known = any_known || !part_of_bone[b].empty();
     const std::int32_t parent = skeleton.bones[b].parent;
-    if (part_of_bone[b].empty() && parent >= 0) part_of_bone[b] = part_of_bone[static_cast<std::size_t>(parent)];
+    if (part_of_bone[b].empty() && parent >= 0)
+      part_of_bone[b] = part_of_bone[static_cast<std::size_t>(parent)];
   }
   std::vector<std::string> regions;
   for (const RawJoint& joint : skeleton.joints) {
@@ -154,7 +159,8 @@ class RegionNames {
   std::vector<std::string> names_;
 };
 
-bool ruleTakes(const RegionRule& rule, const std::string& material, const std::string& joint, std::uint32_t number) {
+bool ruleTakes(const RegionRule& rule, const std::string& material, const std::string& joint,
+               std::uint32_t number) {
   if (std::find(rule.materials.begin(), rule.materials.end(), material) != rule.materials.end()) return true;
   if (std::find(rule.joints.begin(), rule.joints.end(), joint) != rule.joints.end()) return true;
   return std::any_of(rule.faces.begin(), rule.faces.end(),
@@ -183,9 +189,9 @@ RegionNames assignRegions(const RawAsset& asset, const SegmentOptions& options, 
       if (options.by == SegmentBy::kJoints) {
         region = joint_regions[joint];
       } else {
-        const auto rule = std::find_if(options.rules.begin(), options.rules.end(), [&](const RegionRule& candidate) {
-          return ruleTakes(candidate, material, joint_name, number);
-        });
+        const auto rule = std::find_if(
+            options.rules.begin(), options.rules.end(),
+            [&](const RegionRule& candidate) { return ruleTakes(candidate, material, joint_name, number); });
         if (rule == options.rules.end()) {
           throw InputError({file, "/meshes",
                             "no region takes face " + std::to_string(number) + " (material '" + material +
@@ -201,12 +207,15 @@ RegionNames assignRegions(const RawAsset& asset, const SegmentOptions& options, 
 }
 
 struct VertexBytesLess {
-  bool operator()(const RawVertex& a, const RawVertex& b) const { return std::memcmp(&a, &b, sizeof(RawVertex)) < 0; }
+  bool operator()(const RawVertex& a, const RawVertex& b) const {
+    return std::memcmp(&a, &b, sizeof(RawVertex)) < 0;
+  }
 };
 static_assert(sizeof(RawVertex) == 3 * 4 + 3 * 4 + 2 * 4 + 4 * 2 + 4 * 4, "RawVertex must have no padding");
 
 /// Appends a part's faces and its own, welded vertices in order of first use.
-void appendPart(TemplateBody& body, RegionId region, std::uint32_t material, std::span<const SourceFace> faces) {
+void appendPart(TemplateBody& body, RegionId region, std::uint32_t material,
+                std::span<const SourceFace> faces) {
   std::map<RawVertex, std::uint32_t, VertexBytesLess> numbers;
   body.parts.push_back({region, material, static_cast<std::uint32_t>(body.faces.size()),
                         static_cast<std::uint32_t>(faces.size())});
@@ -214,7 +223,8 @@ void appendPart(TemplateBody& body, RegionId region, std::uint32_t material, std
     Triangle corners = source.primitive->faces[source.face];
     for (std::uint32_t& corner : corners) {
       const RawVertex& vertex = source.primitive->vertices[corner];
-      const auto [entry, is_new] = numbers.try_emplace(vertex, static_cast<std::uint32_t>(body.vertices.size()));
+      const auto [entry, is_new] =
+          numbers.try_emplace(vertex, static_cast<std::uint32_t>(body.vertices.size()));
       if (is_new) body.vertices.push(vertex);
       corner = entry->second;
     }
@@ -240,9 +250,10 @@ void shareSkinWeights(TemplateBody& body, std::vector<std::string>& warnings) {
     ++mended;
   }
   if (mended > 0) {
-    warnings.push_back(std::to_string(mended) +
-                       " vertices at seams had other skin weights than their neighbours at the same position; "
-                       "they now share them, so that seams can't tear");
+    warnings.push_back(
+        std::to_string(mended) +
+        " vertices at seams had other skin weights than their neighbours at the same position; "
+        "they now share them, so that seams can't tear");
   }
 }
 
@@ -253,7 +264,9 @@ void addClips(TemplateBody& body, const RawAsset& asset, std::vector<std::string
     if (clip.name.empty()) clip.name = "clip";
     for (int copy = 2; !names.insert(clip.name).second; ++copy) {
       clip.name = raw.name + "_" + std::to_string(copy);
-      if (copy == 2) warnings.push_back("two clips are named '" + raw.name + "'; the later one becomes '" + clip.name + "'");
+      if (copy == 2)
+        warnings.push_back("two clips are named '" + raw.name + "'; the later one becomes '" + clip.name +
+                           "'");
     }
     body.clips.push_back(std::move(clip));
   }
@@ -276,7 +289,8 @@ TemplateBody segmentTemplate(const RawAsset& asset, const SegmentOptions& option
   // Sort by region, then material by first appearance, and keep the file's order inside.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> material_rank;  // (region, material)
   for (const SourceFace& face : faces) {
-    material_rank.try_emplace({face.region, face.primitive->material}, static_cast<std::uint32_t>(material_rank.size()));
+    material_rank.try_emplace({face.region, face.primitive->material},
+                              static_cast<std::uint32_t>(material_rank.size()));
   }
   const auto key = [&](const SourceFace& face) {
     return std::pair(face.region, material_rank[{face.region, face.primitive->material}]);

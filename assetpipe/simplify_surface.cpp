@@ -133,7 +133,9 @@ class Simplifier {
   }
 
   static bool isAlive(const Triangle& face) { return face[0] != face[1]; }
-  static bool has(const Triangle& face, std::uint32_t v) { return face[0] == v || face[1] == v || face[2] == v; }
+  static bool has(const Triangle& face, std::uint32_t v) {
+    return face[0] == v || face[1] == v || face[2] == v;
+  }
   Vec3d position(std::uint32_t v) const { return Vec3d(mesh_.positions[v]); }
 
   Vec3d areaNormal(const Triangle& face) const {
@@ -144,7 +146,8 @@ class Simplifier {
   void sumQuadrics() {
     double area_sum = 0.0;
     for (const Triangle& face : mesh_.faces) area_sum += glm::length(areaNormal(face));
-    fine_edge_ = 5.0 * std::sqrt(area_sum / static_cast<double>(std::max<std::size_t>(mesh_.faces.size(), 1)));
+    fine_edge_ =
+        5.0 * std::sqrt(area_sum / static_cast<double>(std::max<std::size_t>(mesh_.faces.size(), 1)));
     normals_.assign(mesh_.positions.size(), Vec3(0.0f));
     for (const Triangle& face : mesh_.faces) {
       for (const std::uint32_t v : face) normals_[v] += Vec3(areaNormal(face));
@@ -197,7 +200,8 @@ class Simplifier {
     result.clear();
     for (const std::uint32_t f : faces_of_[v]) {
       for (const std::uint32_t other : mesh_.faces[f]) {
-        if (other != v && std::find(result.begin(), result.end(), other) == result.end()) result.push_back(other);
+        if (other != v && std::find(result.begin(), result.end(), other) == result.end())
+          result.push_back(other);
       }
     }
     std::sort(result.begin(), result.end());
@@ -231,7 +235,8 @@ class Simplifier {
     for (std::size_t i = 0; i < around_.size(); ++i) {
       if (lines_[i] == *own) candidates_.push_back({cost(v, around_[i], area), v, around_[i]});
     }
-    std::sort(candidates_.begin(), candidates_.end(), [](const Collapse& a, const Collapse& b) { return b > a; });
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Collapse& a, const Collapse& b) { return b > a; });
     for (const Collapse& candidate : candidates_) {
       if (isAllowed(candidate, *own)) return candidate;
     }
@@ -259,7 +264,8 @@ class Simplifier {
   bool isAllowed(const Collapse& collapse, Line line) {
     neighbours(collapse.to, other_);
     std::size_t common = 0;
-    for (const std::uint32_t v : other_) common += std::binary_search(around_.begin(), around_.end(), v) ? 1 : 0;
+    for (const std::uint32_t v : other_)
+      common += std::binary_search(around_.begin(), around_.end(), v) ? 1 : 0;
     const bool on_border = line == Line::kBorder || line == Line::kMirrorPlane;
     if (common != (on_border ? 1u : 2u)) return false;  // the link condition
     if (around_.size() <= 3 && other_.size() <= 3) return false;
@@ -345,7 +351,7 @@ class Simplifier {
   const SimplifySurfaceOptions& options_;
   std::size_t face_count_;
   std::vector<std::vector<std::uint32_t>> faces_of_;
-  double fine_edge_ = 0.0;  // metres; longer edges are those of the result
+  double fine_edge_ = 0.0;     // metres; longer edges are those of the result
   std::vector<Vec3> normals_;  // of the vertices, averaged over the fine mesh
   std::vector<Quadric> quadrics_;
   std::vector<double> importance_;

@@ -40,15 +40,16 @@ std::uint32_t templateMaterial(const TemplateBody& body, const std::string& name
 std::string listNames(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 5;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i == 0 ? "'" : ", '") + names[i] + "'";
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    text += (i == 0 ? "'" : ", '") + names[i] + "'";
   if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
   return text;
 }
 
 class OutfitTagger {
  public:
-  OutfitTagger(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options, const std::string& file,
-               std::vector<std::string>& warnings)
+  OutfitTagger(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options,
+               const std::string& file, std::vector<std::string>& warnings)
       : outfit_(outfit), body_(body), options_(options), file_(file), warnings_(warnings) {}
 
   Item tag(const std::string& name) {
@@ -81,7 +82,8 @@ class OutfitTagger {
     if (!ensemble.is_object()) return;
     const json slot = ensemble.value("slot", json()), layer = ensemble.value("layer", json());
     if (!slot.is_null()) {
-      if (!slot.is_string() || slot == "") fail("/scenes", "the custom property 'slot' is no text", "set a name");
+      if (!slot.is_string() || slot == "")
+        fail("/scenes", "the custom property 'slot' is no text", "set a name");
       item_.slot = slot;
     }
     if (!layer.is_null()) {
@@ -97,7 +99,8 @@ class OutfitTagger {
     const RawSkeleton& ours = body_.skeleton;
     const RawSkeleton& theirs = outfit_.skeleton;
     std::map<std::string, std::uint32_t> joint_by_name;
-    for (std::uint32_t j = 0; j < ours.joints.size(); ++j) joint_by_name.try_emplace(ours.bones[ours.joints[j].bone].name, j);
+    for (std::uint32_t j = 0; j < ours.joints.size(); ++j)
+      joint_by_name.try_emplace(ours.bones[ours.joints[j].bone].name, j);
 
     const std::vector<bool> used = usedJoints();
     joint_map_.assign(theirs.joints.size(), 0);
@@ -116,12 +119,14 @@ class OutfitTagger {
       const float distance = glm::distance(here, there);
       if (!(distance <= tolerance)) {
         fail("/skins",
-             fmt::format("joint '{}' stands {:.1f} mm from the template's in the bind pose", name, distance * 1000.0f),
+             fmt::format("joint '{}' stands {:.1f} mm from the template's in the bind pose", name,
+                         distance * 1000.0f),
              "bind the outfit to the template's own skeleton, in the template's pose");
       }
     }
     if (!missing.empty()) {
-      fail("/skins", "the outfit is bound to joints that the template's skeleton lacks: " + listNames(missing),
+      fail("/skins",
+           "the outfit is bound to joints that the template's skeleton lacks: " + listNames(missing),
            "bind it to the template's skeleton, or move these weights to the template's joints");
     }
   }
@@ -151,7 +156,8 @@ class OutfitTagger {
       Garment garment{node.name, {}};
       for (const RawPrimitive& primitive : node.primitives) {
         const std::uint32_t material = templateMaterial(body_, outfit_.materials[primitive.material].name);
-        const bool is_body = options_.body_node.empty() ? material != EmbeddedFace::kAnyMaterial : is_body_node;
+        const bool is_body =
+            options_.body_node.empty() ? material != EmbeddedFace::kAnyMaterial : is_body_node;
         if (is_body) {
           body_primitives_.push_back({&primitive, material});
         } else {
@@ -175,8 +181,11 @@ class OutfitTagger {
   [[noreturn]] void failWithoutBody() const {
     std::vector<std::string> regions;
     for (const BodyPart& part : body_.parts) regions.push_back(body_.materials[part.material].name);
-    fail("/materials", "there is no body in this outfit: no material is named as one of the template's (" + listNames(regions) + ")",
-         "export the outfit with the body that it dresses, its materials named as the template's, or use --body NODE");
+    fail("/materials",
+         "there is no body in this outfit: no material is named as one of the template's (" +
+             listNames(regions) + ")",
+         "export the outfit with the body that it dresses, its materials named as the template's, or use "
+         "--body NODE");
   }
 
   /// One garment per node; a second node of the same name gets a number.
@@ -222,9 +231,11 @@ class OutfitTagger {
     const std::size_t face_count = matches_.template_face.size();
     if (matches_.unmatched <= kMaxUnmatchedShare * static_cast<double>(face_count)) return;
     fail("/meshes",
-         fmt::format("{} of the {} body faces match no face of the template; corners are {:.2f} mm (median) to {:.2f} mm "
+         fmt::format("{} of the {} body faces match no face of the template; corners are {:.2f} mm (median) "
+                     "to {:.2f} mm "
                      "(maximum) from it",
-                     matches_.unmatched, face_count, matches_.median_distance * 1000.0f, matches_.max_distance * 1000.0f),
+                     matches_.unmatched, face_count, matches_.median_distance * 1000.0f,
+                     matches_.max_distance * 1000.0f),
          matches_.median_distance > options_.tolerance
              ? "tag it with the template that it was made for"
              : "leave the faces of the template's body as they are, or raise --tolerance");
@@ -232,14 +243,16 @@ class OutfitTagger {
 
   /// Design 3: a few faces that a garment reshaped stay as geometry of the outfit.
   void keepUnmatchedFaces() {
-    warnings_.push_back(fmt::format(
-        "{} of the {} body faces match no face of the template (corners up to {:.2f} mm off); they stay as geometry of "
-        "the outfit and their regions count as partial",
-        matches_.unmatched, matches_.template_face.size(), matches_.max_distance * 1000.0f));
+    warnings_.push_back(
+        fmt::format("{} of the {} body faces match no face of the template (corners up to {:.2f} mm off); "
+                    "they stay as geometry of "
+                    "the outfit and their regions count as partial",
+                    matches_.unmatched, matches_.template_face.size(), matches_.max_distance * 1000.0f));
     std::size_t number = 0;
     for (const BodyPrimitive& part : body_primitives_) {
       std::map<RegionId, RawPrimitive> extra;
-      std::map<std::pair<RegionId, std::uint32_t>, std::uint32_t> kept_vertices;  // (region, vertex) -> new number
+      std::map<std::pair<RegionId, std::uint32_t>, std::uint32_t>
+          kept_vertices;  // (region, vertex) -> new number
       const RawPrimitive source = withTemplateJoints(*part.primitive);
       for (const Triangle& face : source.faces) {
         if (matches_.template_face[number++].valid()) continue;
@@ -280,10 +293,12 @@ class OutfitTagger {
   }
 
   void warnIfComplete() const {
-    const bool complete = std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
+    const bool complete =
+        std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
     if (!complete) return;
     warnings_.push_back(
-        "its body is complete, so nothing is hidden under the clothes; remove the faces that they hide before "
+        "its body is complete, so nothing is hidden under the clothes; remove the faces that they hide "
+        "before "
         "exporting (finding them with --auto-occlusion is not in this version)");
   }
 
@@ -292,16 +307,16 @@ class OutfitTagger {
   const TagOptions& options_;
   const std::string& file_;
   std::vector<std::string>& warnings_;
-  std::vector<std::uint16_t> joint_map_;        ///< per joint of the outfit: the template's
+  std::vector<std::uint16_t> joint_map_;  ///< per joint of the outfit: the template's
   std::vector<BodyPrimitive> body_primitives_;
-  FaceMatches matches_;                         ///< of the body primitives' faces, in order
+  FaceMatches matches_;  ///< of the body primitives' faces, in order
   Item item_;
 };
 
 }  // namespace
 
-Item tagOutfit(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options, const std::string& name,
-               const std::string& file, std::vector<std::string>& warnings) {
+Item tagOutfit(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options,
+               const std::string& name, const std::string& file, std::vector<std::string>& warnings) {
   ENSEMBLE_CHECK(options.tolerance > 0.0f);
   return OutfitTagger(outfit, body, options, file, warnings).tag(name);
 }

@@ -9,8 +9,8 @@
 
 namespace ensemble {
 
-inline constexpr float kDefaultTolerance = 0.0002f;     ///< metres
-inline constexpr double kMaxUnmatchedShare = 0.02;      ///< of the embedded body's faces (design 3)
+inline constexpr float kDefaultTolerance = 0.0002f;  ///< metres
+inline constexpr double kMaxUnmatchedShare = 0.02;   ///< of the embedded body's faces (design 3)
 
 struct TagOptions {
   float tolerance = kDefaultTolerance;  ///< metres: how far a corner may be from the template's
@@ -25,8 +25,8 @@ struct TagOptions {
 /// @throws InputError: no body, no garment and nothing hidden, unskinned garments, a joint that the
 /// template lacks or has elsewhere, more than 2 % unmatched body faces (median and maximum distance
 /// are told).
-Item tagOutfit(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options, const std::string& name,
-               const std::string& file, std::vector<std::string>& warnings);
+Item tagOutfit(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options,
+               const std::string& name, const std::string& file, std::vector<std::string>& warnings);
 
 /// Classes from a set of visible template faces: all full, none hidden, else partial; extra body
 /// faces count as visible and make their region partial.

@@ -17,7 +17,8 @@ constexpr float kBoneTolerance = 0.01f;  // metres between bind positions
 std::vector<Mat4> bindPose(const RawSkeleton& skeleton) {
   std::vector<Mat4> model_from_bone(skeleton.bones.size());
   globalPose(skeleton, restPose(skeleton), model_from_bone);
-  for (const RawJoint& joint : skeleton.joints) model_from_bone[joint.bone] = glm::inverse(joint.joint_from_model);
+  for (const RawJoint& joint : skeleton.joints)
+    model_from_bone[joint.bone] = glm::inverse(joint.joint_from_model);
   return model_from_bone;
 }
 
@@ -38,16 +39,19 @@ std::vector<std::int32_t> matchBones(const RawSkeleton& target, const RawSkeleto
 void checkMovingBones(const RawAsset& asset, const RawClip& clip, const RawSkeleton& target,
                       const std::vector<std::int32_t>& matched, const std::string& file) {
   for (const RawChannel& channel : clip.channels) {
-    const bool known = std::find(matched.begin(), matched.end(), static_cast<std::int32_t>(channel.bone)) != matched.end();
+    const bool known =
+        std::find(matched.begin(), matched.end(), static_cast<std::int32_t>(channel.bone)) != matched.end();
     const std::string& name = asset.skeleton.bones[channel.bone].name;
     if (known) continue;
-    throw InputError({file, "/animations", "clip '" + clip.name + "' moves '" + name + "', which the template's skeleton lacks",
+    throw InputError({file, "/animations",
+                      "clip '" + clip.name + "' moves '" + name + "', which the template's skeleton lacks",
                       "give clips of the template's own skeleton"});
   }
   const std::vector<Mat4> here = bindPose(target), there = bindPose(asset.skeleton);
   for (std::size_t b = 0; b < matched.size(); ++b) {
     if (matched[b] < 0) continue;
-    const float distance = glm::distance(Vec3(here[b][3]), Vec3(there[static_cast<std::size_t>(matched[b])][3]));
+    const float distance =
+        glm::distance(Vec3(here[b][3]), Vec3(there[static_cast<std::size_t>(matched[b])][3]));
     if (distance <= kBoneTolerance) continue;
     throw InputError({file, "/skins",
                       fmt::format("joint '{}' stands {:.1f} mm from the template's in the bind pose",
@@ -58,8 +62,9 @@ void checkMovingBones(const RawAsset& asset, const RawClip& clip, const RawSkele
 
 /// One pose of `source`'s bones as local transforms of `target`'s: every matched bone moves from
 /// its bind pose as its namesake does; the others keep their rest pose under their parents.
-void transferPose(const RawSkeleton& source, std::span<const Transform> source_local, const RawSkeleton& target,
-                  const std::vector<std::int32_t>& matched, std::span<Transform> target_local) {
+void transferPose(const RawSkeleton& source, std::span<const Transform> source_local,
+                  const RawSkeleton& target, const std::vector<std::int32_t>& matched,
+                  std::span<Transform> target_local) {
   const std::vector<Mat4> source_bind = bindPose(source), target_bind = bindPose(target);
   std::vector<Mat4> source_now(source.bones.size()), target_now(target.bones.size());
   globalPose(source, source_local, source_now);
@@ -79,8 +84,8 @@ void transferPose(const RawSkeleton& source, std::span<const Transform> source_l
 
 std::string freeName(const TemplateBody& body, const std::string& wanted, const std::string& stem) {
   const auto taken = [&](const std::string& name) {
-    return name.empty() ||
-           std::any_of(body.clips.begin(), body.clips.end(), [&](const Clip& clip) { return clip.name == name; });
+    return name.empty() || std::any_of(body.clips.begin(), body.clips.end(),
+                                       [&](const Clip& clip) { return clip.name == name; });
   };
   std::string name = taken(wanted) ? stem : wanted;
   for (int copy = 2; taken(name); ++copy) name = stem + "_" + std::to_string(copy);
@@ -91,7 +96,8 @@ std::string freeName(const TemplateBody& body, const std::string& wanted, const 
 
 void transferClips(const RawAsset& asset, const std::filesystem::path& file, TemplateBody& body) {
   if (asset.clips.empty()) {
-    throw InputError({file.string(), "/animations", "there is no clip in this file", "export it with its animation"});
+    throw InputError(
+        {file.string(), "/animations", "there is no clip in this file", "export it with its animation"});
   }
   const std::vector<std::int32_t> matched = matchBones(body.skeleton, asset.skeleton);
   for (const RawClip& raw : asset.clips) {
@@ -103,8 +109,9 @@ void transferClips(const RawAsset& asset, const std::filesystem::path& file, Tem
     clip.key_count = source.key_count;
     clip.transforms.resize(std::size_t{clip.key_count} * body.skeleton.bones.size());
     for (std::uint32_t key = 0; key < clip.key_count; ++key) {
-      transferPose(asset.skeleton, source.key(key), body.skeleton, matched,
-                   std::span(clip.transforms).subspan(key * body.skeleton.bones.size(), body.skeleton.bones.size()));
+      transferPose(
+          asset.skeleton, source.key(key), body.skeleton, matched,
+          std::span(clip.transforms).subspan(key * body.skeleton.bones.size(), body.skeleton.bones.size()));
     }
     body.clips.push_back(std::move(clip));
   }

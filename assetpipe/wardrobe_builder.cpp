@@ -24,14 +24,17 @@ bool isOurs(const std::string& name) {
   if (!name.ends_with(".glb")) return false;
   const std::string stem = name.substr(0, name.size() - 4);
   const std::size_t dot = stem.rfind('.');
-  return name == "template.glb" || (dot != std::string::npos && isHex(std::string_view(stem).substr(dot + 1)));
+  return name == "template.glb" ||
+         (dot != std::string::npos && isHex(std::string_view(stem).substr(dot + 1)));
 }
 
-void clearUnnamedFiles(const fs::path& folder, const std::set<std::string>& named, const std::string& prefix) {
+void clearUnnamedFiles(const fs::path& folder, const std::set<std::string>& named,
+                       const std::string& prefix) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_regular_file(error) && isOurs(name) && !named.contains(prefix + name)) fs::remove(entry.path(), error);
+    if (entry.is_regular_file(error) && isOurs(name) && !named.contains(prefix + name))
+      fs::remove(entry.path(), error);
   }
 }
 

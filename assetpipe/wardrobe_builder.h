@@ -14,7 +14,7 @@ namespace ensemble {
 
 /// A file's bytes and where they go.
 struct OutfitFile {
-  ManifestOutfit entry;           ///< entry.file and entry.sha256 are of `bytes`
+  ManifestOutfit entry;  ///< entry.file and entry.sha256 are of `bytes`
   std::vector<std::byte> bytes;
 };
 

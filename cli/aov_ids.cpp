@@ -29,7 +29,8 @@ Json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes,
   return characters;
 }
 
-Json describeOutfits(const std::string& key, const Wardrobe& wardrobe, std::uint32_t w, const AovNumbers& numbers) {
+Json describeOutfits(const std::string& key, const Wardrobe& wardrobe, std::uint32_t w,
+                     const AovNumbers& numbers) {
   Json outfits = Json::array();
   for (std::size_t i = 0; i < wardrobe.items.size(); ++i) {
     const Item& item = wardrobe.items[ItemId(i)];
@@ -41,7 +42,9 @@ Json describeOutfits(const std::string& key, const Wardrobe& wardrobe, std::uint
         }
       }
     }
-    outfits.push_back({{"wardrobe", key}, {"name", item.name}, {"file", wardrobe.item_files[ItemId(i)]},
+    outfits.push_back({{"wardrobe", key},
+                       {"name", item.name},
+                       {"file", wardrobe.item_files[ItemId(i)]},
                        {"garments", std::move(garments)}});
   }
   return outfits;
@@ -63,9 +66,11 @@ nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> ward
   for (std::uint32_t w = 0; w < wardrobes.size(); ++w) {
     const std::string key = wardrobeName(scene.wardrobes[w]);
     for (std::size_t r = 0; r < wardrobes[w].body.regions.size(); ++r) {
-      ids["regions"].push_back({{"number", r + 1}, {"wardrobe", key}, {"name", wardrobes[w].body.regions[RegionId(r)].name}});
+      ids["regions"].push_back(
+          {{"number", r + 1}, {"wardrobe", key}, {"name", wardrobes[w].body.regions[RegionId(r)].name}});
     }
-    for (Json& outfit : describeOutfits(key, wardrobes[w], w, numbers)) ids["outfits"].push_back(std::move(outfit));
+    for (Json& outfit : describeOutfits(key, wardrobes[w], w, numbers))
+      ids["outfits"].push_back(std::move(outfit));
   }
   for (std::size_t g = 0; g < numbers.garments.size(); ++g) {
     ids["garments"].push_back({{"number", numbers.first_garment + g},
@@ -73,8 +78,10 @@ nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> ward
                                {"name", numbers.garments[g]}});
   }
   ids["faces"] =
-      "where region is a number in regions: 1 + the face's number in the wardrobe's template.glb, its regions' "
-      "faces counted on in order; where it is a number in garments: 1 + the face's number in the garment, its "
+      "where region is a number in regions: 1 + the face's number in the wardrobe's template.glb, its "
+      "regions' "
+      "faces counted on in order; where it is a number in garments: 1 + the face's number in the garment, "
+      "its "
       "parts counted on in order; 0: nobody";
   ids["depth"] = "metres along the view axis; 0: nothing there";
   ids["normal"] = "unit vector in the world; 0, 0, 0: nothing there";

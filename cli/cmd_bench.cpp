@@ -30,7 +30,7 @@ struct Row {
   Technique technique = Technique::kTagged;
   std::size_t characters = 0;
   std::vector<double> frame_ms = {}, cpu_ms = {};  ///< per round
-  FrameStats stats = {};                      ///< of the last round; the counts are those of every round
+  FrameStats stats = {};                           ///< of the last round; the counts are those of every round
 };
 
 std::vector<std::string_view> splitList(std::string_view text) {
@@ -48,10 +48,13 @@ std::vector<Technique> parseTechniques(const std::string& text) {
   for (const std::string_view name : splitList(text)) {
     const std::optional<Technique> technique = parseTechnique(name);
     if (!technique) {
-      throw UsageError({.file = {}, .where = "--techniques", .what = "unknown technique '" + std::string(name) + "'",
+      throw UsageError({.file = {},
+                        .where = "--techniques",
+                        .what = "unknown technique '" + std::string(name) + "'",
                         .mend = "choose from naive,prefitted,tagged"});
     }
-    if (std::find(techniques.begin(), techniques.end(), *technique) == techniques.end()) techniques.push_back(*technique);
+    if (std::find(techniques.begin(), techniques.end(), *technique) == techniques.end())
+      techniques.push_back(*technique);
   }
   return techniques;
 }
@@ -64,7 +67,9 @@ std::vector<std::string> parseCounts(const std::string& text, const Scene& scene
     std::uint32_t count = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), count);
     if (error != std::errc() || end != part.data() + part.size() || count == 0) {
-      throw UsageError({.file = {}, .where = "--counts", .what = "'" + std::string(part) + "' is no number of people",
+      throw UsageError({.file = {},
+                        .where = "--counts",
+                        .what = "'" + std::string(part) + "' is no number of people",
                         .mend = "write numbers parted by commas, e.g. 100,1000"});
     }
     counts.push_back(std::to_string(count));
@@ -126,7 +131,9 @@ class Contest {
     const Picture* tagged = pictureOf(Technique::kTagged);
     const Picture* prefitted = pictureOf(Technique::kPrefitted);
     if (!tagged || !prefitted || tagged->color.rgba == prefitted->color.rgba) return;
-    throw SystemError({.file = {}, .where = "bench", .what = "tagged and prefitted give different pictures",
+    throw SystemError({.file = {},
+                       .where = "bench",
+                       .what = "tagged and prefitted give different pictures",
                        .mend = "report it as a bug"});
   }
 
@@ -161,8 +168,10 @@ Json ratiosOf(const Row& row, const Row& base) {
                  {"cpu_ms", ratio(median(row.cpu_ms), median(base.cpu_ms))},
                  {"vertex_invocations", nullptr}};
   const auto own = row.stats.vertexInvocations(), others = base.stats.vertexInvocations();
-  if (own && others) ratios["vertex_invocations"] = ratio(static_cast<double>(*own), static_cast<double>(*others));
-  ratios["triangles"] = ratio(static_cast<double>(row.stats.triangles()), static_cast<double>(base.stats.triangles()));
+  if (own && others)
+    ratios["vertex_invocations"] = ratio(static_cast<double>(*own), static_cast<double>(*others));
+  ratios["triangles"] =
+      ratio(static_cast<double>(row.stats.triangles()), static_cast<double>(base.stats.triangles()));
   ratios["gpu_mesh_bytes"] =
       ratio(static_cast<double>(row.stats.gpu_mesh_bytes), static_cast<double>(base.stats.gpu_mesh_bytes));
   return ratios;
@@ -173,8 +182,8 @@ std::string toTableLine(const Row& row) {
   const std::optional<std::uint64_t> invocations = row.stats.vertexInvocations();
   return fmt::format("{:<10} {:>8} {:>9.2f} {:>9.2f} {:>9.2f} {:>8.3f} {:>13} {:>13} {:>6} {:>11}\n",
                      toString(row.technique), row.characters, *least, median(row.frame_ms), *most,
-                     median(row.cpu_ms), invocations ? std::to_string(*invocations) : "-", row.stats.triangles(),
-                     row.stats.drawCalls(), row.stats.gpu_mesh_bytes);
+                     median(row.cpu_ms), invocations ? std::to_string(*invocations) : "-",
+                     row.stats.triangles(), row.stats.drawCalls(), row.stats.gpu_mesh_bytes);
 }
 
 std::string ratioText(const Json& ratios) {
@@ -192,16 +201,13 @@ void run(const BenchArguments& arguments) {
   const Scene scene = loadSceneOf(arguments.scene);
   const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
   const std::vector<std::string> counts = parseCounts(arguments.counts, scene);
-  Json figures = {{"schema", "ensemble.bench/1"},
-                  {"device", ""},
-                  {"width", scene.output.width},
-                  {"height", scene.output.height},
-                  {"samples", scene.output.samples},
-                  {"rows", Json::array()},
+  Json figures = {{"schema", "ensemble.bench/1"},    {"device", ""},
+                  {"width", scene.output.width},     {"height", scene.output.height},
+                  {"samples", scene.output.samples}, {"rows", Json::array()},
                   {"ratios", Json::array()}};
-  std::string table = fmt::format("{:<10} {:>8} {:>9} {:>9} {:>9} {:>8} {:>13} {:>13} {:>6} {:>11}\n", "technique",
-                                  "people", "min ms", "median ms", "max ms", "cpu ms", "vertices", "triangles",
-                                  "draws", "mesh bytes");
+  std::string table =
+      fmt::format("{:<10} {:>8} {:>9} {:>9} {:>9} {:>8} {:>13} {:>13} {:>6} {:>11}\n", "technique", "people",
+                  "min ms", "median ms", "max ms", "cpu ms", "vertices", "triangles", "draws", "mesh bytes");
   std::string ratio_lines;
   Progress progress("rounds", std::uint64_t{arguments.rounds} * counts.size());
   for (const std::string& count : counts) {
@@ -233,17 +239,19 @@ void run(const BenchArguments& arguments) {
 }  // namespace
 
 void addBenchCommand(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("bench", "Compare the techniques' frame time, vertex work and memory");
+  CLI::App& command =
+      *app.add_subcommand("bench", "Compare the techniques' frame time, vertex work and memory");
   const auto arguments = std::make_shared<BenchArguments>();
   addSceneOptions(command, arguments->scene);
   command
-      .add_option("--techniques", arguments->techniques, "Which to compare: naive,prefitted,tagged (default: all)")
+      .add_option("--techniques", arguments->techniques,
+                  "Which to compare: naive,prefitted,tagged (default: all)")
       ->type_name("LIST");
   command
-      .add_option("--counts", arguments->counts, "Numbers of people in the crowd; default: the scene's crowd.count")
+      .add_option("--counts", arguments->counts,
+                  "Numbers of people in the crowd; default: the scene's crowd.count")
       ->type_name("LIST");
-  command
-      .add_option("--rounds", arguments->rounds, "Frames of each technique, 1 to 10000; default 15")
+  command.add_option("--rounds", arguments->rounds, "Frames of each technique, 1 to 10000; default 15")
       ->check(CLI::Range(1, 10000))
       ->type_name("N");
   finishCommand(command, arguments->common, "ensemble bench scene.yaml --counts 100,1000 --json bench.json",

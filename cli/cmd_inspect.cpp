@@ -33,7 +33,8 @@ struct Findings {
 Findings inspectAsset(const std::string& file) {
   const RawAsset asset = readGltf(file);
   Findings found;
-  found.json = {{"file", file}, {"meshes", Json::array()}, {"materials", Json::array()}, {"clips", Json::array()}};
+  found.json = {
+      {"file", file}, {"meshes", Json::array()}, {"materials", Json::array()}, {"clips", Json::array()}};
   for (const RawMeshNode& node : asset.meshes) {
     std::size_t faces = 0, vertices = 0;
     Json parts = Json::array();
@@ -42,10 +43,16 @@ Findings inspectAsset(const std::string& file) {
       faces += primitive.faces.size();
       vertices += primitive.vertices.size();
       const std::string& material = asset.materials[primitive.material].name;
-      parts.push_back({{"material", material}, {"faces", primitive.faces.size()}, {"vertices", primitive.vertices.size()}});
+      parts.push_back({{"material", material},
+                       {"faces", primitive.faces.size()},
+                       {"vertices", primitive.vertices.size()}});
       names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", material, primitive.faces.size());
     }
-    found.json["meshes"].push_back({{"name", node.name}, {"skinned", node.skinned}, {"faces", faces}, {"vertices", vertices}, {"primitives", parts}});
+    found.json["meshes"].push_back({{"name", node.name},
+                                    {"skinned", node.skinned},
+                                    {"faces", faces},
+                                    {"vertices", vertices},
+                                    {"primitives", parts}});
     found.text += fmt::format("mesh {}: {} faces, {} vertices{}: {}\n", node.name, faces, vertices,
                               node.skinned ? "" : ", not skinned", names);
   }
@@ -77,15 +84,19 @@ Findings inspectWardrobe(const std::string& folder) {
                 {"regions", Json::array()},
                 {"clips", Json::array()},
                 {"outfits", Json::array()}};
-  found.text = fmt::format("template {}: {} faces, {} vertices, {} joints\n", wardrobe.template_file, body.faces.size(),
-                           body.vertices.size(), body.skeleton.joints.size());
+  found.text = fmt::format("template {}: {} faces, {} vertices, {} joints\n", wardrobe.template_file,
+                           body.faces.size(), body.vertices.size(), body.skeleton.joints.size());
   for (const Region& region : body.regions) {
     found.json["regions"].push_back({{"name", region.name}, {"faces", region.face_count}});
     found.text += fmt::format("region {}: {} faces\n", region.name, region.face_count);
   }
   for (const Clip& clip : body.clips) {
-    found.json["clips"].push_back({{"name", clip.name}, {"seconds", clip.seconds}, {"keys", clip.key_count}, {"ground_speed", clip.ground_speed}});
-    found.text += fmt::format("clip {}: {:.3f} s, {} keys, {:.3f} m/s\n", clip.name, clip.seconds, clip.key_count, clip.ground_speed);
+    found.json["clips"].push_back({{"name", clip.name},
+                                   {"seconds", clip.seconds},
+                                   {"keys", clip.key_count},
+                                   {"ground_speed", clip.ground_speed}});
+    found.text += fmt::format("clip {}: {:.3f} s, {} keys, {:.3f} m/s\n", clip.name, clip.seconds,
+                              clip.key_count, clip.ground_speed);
   }
   for (std::size_t i = 0; i < wardrobe.items.size(); ++i) {
     const Item& item = wardrobe.items[ItemId(i)];
@@ -97,11 +108,14 @@ Findings inspectWardrobe(const std::string& folder) {
       garments.push_back({{"name", garment.name}, {"faces", faces}});
       names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", garment.name, faces);
     }
-    found.json["outfits"].push_back({{"name", item.name}, {"slot", item.slot}, {"layer", item.layer},
-                                     {"file", wardrobe.item_files[ItemId(i)]}, {"garments", garments},
+    found.json["outfits"].push_back({{"name", item.name},
+                                     {"slot", item.slot},
+                                     {"layer", item.layer},
+                                     {"file", wardrobe.item_files[ItemId(i)]},
+                                     {"garments", garments},
                                      {"visible_body_faces", item.visibleBodyFaceCount()}});
-    found.text += fmt::format("outfit {} (slot {}, layer {}): {}; {} body faces show\n", item.name, item.slot, item.layer,
-                              names, item.visibleBodyFaceCount());
+    found.text += fmt::format("outfit {} (slot {}, layer {}): {}; {} body faces show\n", item.name, item.slot,
+                              item.layer, names, item.visibleBodyFaceCount());
   }
   return found;
 }
@@ -114,8 +128,9 @@ Findings inspectVisible(const std::string& folder, const std::string& outfit) {
   const auto found_name = std::find(names.begin(), names.end(), outfit);
   if (found_name == names.end()) {
     const std::vector<std::string> nearest = nearestNames(outfit, names);
-    throw InputError({folder, "", "the wardrobe has no outfit " + quotedName(outfit),
-                      nearest.empty() ? "add one with `ensemble add`" : "did you mean " + quotedList(nearest) + "?"});
+    throw InputError(
+        {folder, "", "the wardrobe has no outfit " + quotedName(outfit),
+         nearest.empty() ? "add one with `ensemble add`" : "did you mean " + quotedList(nearest) + "?"});
   }
   const Item& item = wardrobe.items[ItemId(static_cast<std::size_t>(found_name - names.begin()))];
   Findings found;
@@ -127,8 +142,10 @@ Findings inspectVisible(const std::string& folder, const std::string& outfit) {
       if (item.visible[FaceId(region.first_face + f)] != 0) faces.push_back(f);
     }
     const char* visibility = toString(item.tags[RegionId(r)].visibility);
-    found.text += fmt::format("{}: {} ({} of {} faces)\n", region.name, visibility, faces.size(), region.face_count);
-    found.json["regions"].push_back({{"name", region.name}, {"visibility", visibility}, {"faces", std::move(faces)}});
+    found.text +=
+        fmt::format("{}: {} ({} of {} faces)\n", region.name, visibility, faces.size(), region.face_count);
+    found.json["regions"].push_back(
+        {{"name", region.name}, {"visibility", visibility}, {"faces", std::move(faces)}});
   }
   return found;
 }
@@ -136,14 +153,20 @@ Findings inspectVisible(const std::string& folder, const std::string& outfit) {
 Findings inspectScene(const std::string& file) {
   const Scene scene = loadScene(file);
   Findings found;
-  found.json = {{"scene", file}, {"technique", toString(scene.technique)}, {"wardrobes", Json::array()},
-                {"crowd", scene.crowd.count}, {"people", scene.people.size()},
-                {"width", scene.output.width}, {"height", scene.output.height}, {"frames", scene.output.frames}};
+  found.json = {{"scene", file},
+                {"technique", toString(scene.technique)},
+                {"wardrobes", Json::array()},
+                {"crowd", scene.crowd.count},
+                {"people", scene.people.size()},
+                {"width", scene.output.width},
+                {"height", scene.output.height},
+                {"frames", scene.output.frames}};
   found.text = fmt::format("{} x {}, {} frames, technique {}\n", scene.output.width, scene.output.height,
                            scene.output.frames, toString(scene.technique));
   for (const SceneWardrobe& wardrobe : scene.wardrobes) {
     found.json["wardrobes"].push_back({{"key", wardrobe.key}, {"folder", wardrobe.folder.string()}});
-    found.text += fmt::format("wardrobe {}: {}\n", wardrobe.key.empty() ? "(only one)" : wardrobe.key, wardrobe.folder.string());
+    found.text += fmt::format("wardrobe {}: {}\n", wardrobe.key.empty() ? "(only one)" : wardrobe.key,
+                              wardrobe.folder.string());
   }
   found.text += fmt::format("crowd of {}, {} named people\n", scene.crowd.count, scene.people.size());
   return found;
@@ -153,9 +176,11 @@ void run(const InspectArguments& arguments) {
   const std::filesystem::path path(arguments.file);
   const std::string ending = path.extension().string();
   const bool is_wardrobe = std::filesystem::is_directory(path) || path.filename() == "wardrobe.json";
-  const std::string folder = path.filename() == "wardrobe.json" ? path.parent_path().string() : arguments.file;
+  const std::string folder =
+      path.filename() == "wardrobe.json" ? path.parent_path().string() : arguments.file;
   if (!arguments.visible.empty() && !is_wardrobe) {
-    throw UsageError({"", "--visible", "'" + arguments.file + "' is no wardrobe", "give a wardrobe's folder"});
+    throw UsageError(
+        {"", "--visible", "'" + arguments.file + "' is no wardrobe", "give a wardrobe's folder"});
   }
   Findings found;
   if (is_wardrobe) {
@@ -174,8 +199,11 @@ void run(const InspectArguments& arguments) {
 void addInspectCommand(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("inspect", "Tell what is in a GLB, a wardrobe or a scene");
   const auto arguments = std::make_shared<InspectArguments>();
-  command.add_option("FILE", arguments->file, "A .glb, .gltf, wardrobe folder or scene .yaml")->required()->type_name("FILE");
-  command.add_option("--visible", arguments->visible, "List the template's faces that show under an outfit")->type_name("OUTFIT");
+  command.add_option("FILE", arguments->file, "A .glb, .gltf, wardrobe folder or scene .yaml")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--visible", arguments->visible, "List the template's faces that show under an outfit")
+      ->type_name("OUTFIT");
   finishCommand(command, arguments->common, "ensemble inspect wardrobes/women --visible casual01 --json -",
                 [arguments] { run(*arguments); });
 }

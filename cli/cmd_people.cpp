@@ -47,15 +47,17 @@ nlohmann::ordered_json figuresOf(const MadePerson& person) {
 
 void run(const PeopleArguments& arguments) {
   const PeopleConfig config = loadPeopleConfig(arguments.config);
-  nlohmann::ordered_json figures = {{"schema", "ensemble.people/1"}, {"people", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json figures = {{"schema", "ensemble.people/1"},
+                                    {"people", nlohmann::ordered_json::array()}};
   std::string text;
   Progress progress("people", config.people.size());
   for (const PersonConfig& person_config : config.people) {
     const MadePerson person = makePerson(person_config, arguments.jobs);
     for (const auto& file : writePerson(person, arguments.folder)) logDetail("wrote " + file.string());
     figures["people"].push_back(figuresOf(person));
-    text += fmt::format("{}: {} faces, {} outfits in {}\n", person.name, faceCount(person.body.meshes.front()),
-                        person.outfits.size(), (std::filesystem::path(arguments.folder) / person.name).string());
+    text +=
+        fmt::format("{}: {} faces, {} outfits in {}\n", person.name, faceCount(person.body.meshes.front()),
+                    person.outfits.size(), (std::filesystem::path(arguments.folder) / person.name).string());
     progress.advance();
   }
   writeFigures(arguments.common, figures);
@@ -67,8 +69,12 @@ void run(const PeopleArguments& arguments) {
 void addPeopleCommand(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("people", "Make template people and outfits from a few parameters");
   const auto arguments = std::make_shared<PeopleArguments>();
-  command.add_option("CONFIG", arguments->config, "Who to make (docs/people.md)")->required()->type_name("FILE.yaml");
-  command.add_option("-o,--output", arguments->folder, "Write NAME/template.glb, NAME/outfits/ and NAME/unfitted/ here")
+  command.add_option("CONFIG", arguments->config, "Who to make (docs/people.md)")
+      ->required()
+      ->type_name("FILE.yaml");
+  command
+      .add_option("-o,--output", arguments->folder,
+                  "Write NAME/template.glb, NAME/outfits/ and NAME/unfitted/ here")
       ->required()
       ->type_name("FOLDER");
   command.add_option("-j,--jobs", arguments->jobs, "Threads, 1 to 256; default: one a core")

@@ -50,11 +50,16 @@ void writeAov(const FrameNames& names, std::uint32_t frame, Aov aov, const Pictu
   const std::filesystem::path file = names.aov(frame, aov);
   const std::uint32_t width = picture.color.width, height = picture.color.height;
   switch (aov) {
-    case Aov::kCharacter: return writeIdAov(file, aov, width, height, picture.character);
-    case Aov::kRegion: return writeIdAov(file, aov, width, height, picture.region);
-    case Aov::kFace: return writeIdAov(file, aov, width, height, picture.face);
-    case Aov::kDepth: return writeFloatAov(file, aov, width, height, picture.depth);
-    case Aov::kNormal: return writeFloatAov(file, aov, width, height, picture.normal);
+    case Aov::kCharacter:
+      return writeIdAov(file, aov, width, height, picture.character);
+    case Aov::kRegion:
+      return writeIdAov(file, aov, width, height, picture.region);
+    case Aov::kFace:
+      return writeIdAov(file, aov, width, height, picture.face);
+    case Aov::kDepth:
+      return writeFloatAov(file, aov, width, height, picture.depth);
+    case Aov::kNormal:
+      return writeFloatAov(file, aov, width, height, picture.normal);
   }
 }
 
@@ -84,8 +89,9 @@ void run(const RenderArguments& arguments) {
     rows.push_back(toJson(frame, file.string(), picture.stats));
     progress.advance();
   }
-  writeFigures(arguments.common,
-               {{"schema", "ensemble.render/1"}, {"device", renderer.deviceName()}, {"frames", std::move(rows)}});
+  writeFigures(
+      arguments.common,
+      {{"schema", "ensemble.render/1"}, {"device", renderer.deviceName()}, {"frames", std::move(rows)}});
   refuseValidationMessages(renderer);
 }
 
@@ -101,8 +107,9 @@ void addRenderCommand(CLI::App& app) {
       ->required()
       ->type_name("PATH");
   command
-      .add_option("--aov", arguments->aovs,
-                  "Also write, as OpenEXR, any of character,region,face,depth,normal; NAME.ids.json explains them")
+      .add_option(
+          "--aov", arguments->aovs,
+          "Also write, as OpenEXR, any of character,region,face,depth,normal; NAME.ids.json explains them")
       ->type_name("LIST");
   command
       .add_option("--frames", arguments->frames,

@@ -23,7 +23,8 @@ void run(const ReportArguments& arguments) {
   nlohmann::ordered_json figures = toJson(report);
   std::string text = toTable(report);
   if (arguments.extrapolate > 0) {
-    const StoredFaces faces = extrapolateStoredFaces(report.template_faces, report.outfits, arguments.extrapolate);
+    const StoredFaces faces =
+        extrapolateStoredFaces(report.template_faces, report.outfits, arguments.extrapolate);
     figures["extrapolated"] = {{"outfits", arguments.extrapolate}};
     text += fmt::format("\n{} outfits of average size:", arguments.extrapolate);
     for (const Technique technique : kAllTechniques) {
@@ -43,14 +44,20 @@ void run(const ReportArguments& arguments) {
 }  // namespace
 
 void addReportCommand(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("report", "Compare the storage of naive, pre-fitted and tagged outfits");
+  CLI::App& command =
+      *app.add_subcommand("report", "Compare the storage of naive, pre-fitted and tagged outfits");
   const auto arguments = std::make_shared<ReportArguments>();
-  command.add_option("WARDROBE", arguments->wardrobe, "The wardrobe's folder")->required()->type_name("FOLDER");
+  command.add_option("WARDROBE", arguments->wardrobe, "The wardrobe's folder")
+      ->required()
+      ->type_name("FOLDER");
   command.add_option("--csv", arguments->csv_file, "Write the table as CSV")->type_name("FILE");
-  command.add_option("--extrapolate", arguments->extrapolate, "Also count N outfits of average size, 1 to 1000000")
+  command
+      .add_option("--extrapolate", arguments->extrapolate,
+                  "Also count N outfits of average size, 1 to 1000000")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
-  finishCommand(command, arguments->common, "ensemble report wardrobes/women --json report.json", [arguments] { run(*arguments); });
+  finishCommand(command, arguments->common, "ensemble report wardrobes/women --json report.json",
+                [arguments] { run(*arguments); });
 }
 
 }  // namespace ensemble::cli

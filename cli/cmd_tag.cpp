@@ -32,12 +32,14 @@ void addTaggingOptions(CLI::App& command, TagArguments& arguments) {
       ->check(CLI::IsMember({"authored", "auto", "both"}))
       ->type_name("KIND");
   command.add_flag("--auto-occlusion", arguments.auto_occlusion, "The same as --occlusion auto");
-  command.add_option("--body", arguments.body_node,
-                     "Name of the node that is the body (default: whatever has a region's material)")
+  command
+      .add_option("--body", arguments.body_node,
+                  "Name of the node that is the body (default: whatever has a region's material)")
       ->type_name("NODE");
   command
-      .add_option("--tolerance", arguments.tolerance_mm,
-                  "How far a body corner may be from the template's, in millimetres, 0.001 to 10 (default 0.2)")
+      .add_option(
+          "--tolerance", arguments.tolerance_mm,
+          "How far a body corner may be from the template's, in millimetres, 0.001 to 10 (default 0.2)")
       ->check(CLI::Range(0.001, 10.0))
       ->type_name("MM");
   command.add_flag("--draco", arguments.draco, "Compress the files with Draco");
@@ -67,7 +69,9 @@ PipelineOptions pipelineOptions(const TagArguments& arguments) {
   return options;
 }
 
-std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
+std::vector<std::filesystem::path> paths(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
 
 /// The manifest is the figures of these commands.
 void tellResult(const CommonOptions& common, const std::string& folder, const Manifest& manifest) {
@@ -77,12 +81,14 @@ void tellResult(const CommonOptions& common, const std::string& folder, const Ma
     text += outfit.name + ":";
     for (const ManifestTag& tag : outfit.regions) {
       text += " " + tag.name + " " + toString(tag.visibility);
-      if (tag.visibility == Visibility::kPartial) text += fmt::format(" ({}/{})", tag.visible_faces, tag.template_faces);
+      if (tag.visibility == Visibility::kPartial)
+        text += fmt::format(" ({}/{})", tag.visible_faces, tag.template_faces);
       text += &tag == &outfit.regions.back() ? "\n" : ",";
     }
   }
-  printResult(common, text + fmt::format("{}: {} faces, {} regions, {} outfits\n", folder, manifest.body.faces,
-                                         manifest.body.regions.size(), manifest.outfits.size()));
+  printResult(common,
+              text + fmt::format("{}: {} faces, {} regions, {} outfits\n", folder, manifest.body.faces,
+                                 manifest.body.regions.size(), manifest.outfits.size()));
 }
 
 }  // namespace
@@ -90,31 +96,43 @@ void tellResult(const CommonOptions& common, const std::string& folder, const Ma
 void addTagCommand(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("tag", "Tag what outfits hide of a template, and write a wardrobe");
   const auto arguments = std::make_shared<TagArguments>();
-  command.add_option("TEMPLATE", arguments->template_file, "The template person, .glb or .gltf")->required()->type_name("FILE");
-  command.add_option("OUTFIT", arguments->outfits, "Outfits with the body that they dress, raw or tagged")->type_name("FILE...");
-  command.add_option("-o,--output", arguments->folder, "The wardrobe's folder")->required()->type_name("WARDROBE");
+  command.add_option("TEMPLATE", arguments->template_file, "The template person, .glb or .gltf")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("OUTFIT", arguments->outfits, "Outfits with the body that they dress, raw or tagged")
+      ->type_name("FILE...");
+  command.add_option("-o,--output", arguments->folder, "The wardrobe's folder")
+      ->required()
+      ->type_name("WARDROBE");
   command
-      .add_option("--regions", arguments->regions,
-                  "How the template is cut: material, joints (by dominant skin weight) or a file (default material)")
+      .add_option(
+          "--regions", arguments->regions,
+          "How the template is cut: material, joints (by dominant skin weight) or a file (default material)")
       ->type_name("material|joints|FILE");
-  command.add_option("--clips", arguments->clips, "Files with more clips of the same skeleton")->type_name("FILE...");
+  command.add_option("--clips", arguments->clips, "Files with more clips of the same skeleton")
+      ->type_name("FILE...");
   addTaggingOptions(command, *arguments);
-  finishCommand(command, arguments->common, "ensemble tag woman.glb outfits/*.glb -o wardrobes/women", [arguments] {
-    const PipelineOptions options = pipelineOptions(*arguments);
-    tellResult(arguments->common, arguments->folder,
-               tagWardrobe(arguments->template_file, paths(arguments->outfits), arguments->folder, options));
-  });
+  finishCommand(
+      command, arguments->common, "ensemble tag woman.glb outfits/*.glb -o wardrobes/women", [arguments] {
+        const PipelineOptions options = pipelineOptions(*arguments);
+        tellResult(
+            arguments->common, arguments->folder,
+            tagWardrobe(arguments->template_file, paths(arguments->outfits), arguments->folder, options));
+      });
 }
 
 void addAddCommand(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("add", "Add outfits, raw or tagged, to a wardrobe");
   const auto arguments = std::make_shared<TagArguments>();
   command.add_option("WARDROBE", arguments->folder, "The wardrobe's folder")->required()->type_name("FOLDER");
-  command.add_option("OUTFIT", arguments->outfits, "Outfits, raw or tagged for the same template")->required()->type_name("FILE...");
+  command.add_option("OUTFIT", arguments->outfits, "Outfits, raw or tagged for the same template")
+      ->required()
+      ->type_name("FILE...");
   addTaggingOptions(command, *arguments);
   finishCommand(command, arguments->common, "ensemble add wardrobes/women new/raincoat.glb", [arguments] {
     const PipelineOptions options = pipelineOptions(*arguments);
-    tellResult(arguments->common, arguments->folder, addOutfits(arguments->folder, paths(arguments->outfits), options));
+    tellResult(arguments->common, arguments->folder,
+               addOutfits(arguments->folder, paths(arguments->outfits), options));
   });
 }
 

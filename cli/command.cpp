@@ -9,7 +9,8 @@
 
 namespace ensemble::cli {
 
-void finishCommand(CLI::App& command, CommonOptions& options, const std::string& example, std::function<void()> run) {
+void finishCommand(CLI::App& command, CommonOptions& options, const std::string& example,
+                   std::function<void()> run) {
   command.add_option("--json", options.json_file, "Write the figures as JSON to FILE; - is standard output")
       ->type_name("FILE");
   auto* quiet = command.add_flag("-q,--quiet", options.quiet, "Print errors only");
@@ -24,7 +25,8 @@ void finishCommand(CLI::App& command, CommonOptions& options, const std::string&
 
 void writeFigures(const CommonOptions& options, const nlohmann::ordered_json& figures) {
   if (options.json_file.empty()) return;
-  const std::string text = figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const std::string text =
+      figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (options.json_file == "-") {
     std::fputs(text.c_str(), stdout);
   } else {

@@ -44,7 +44,8 @@ std::vector<std::uint32_t> parseFrames(const std::string& text, std::uint32_t fr
     rest = more ? rest.substr(comma + 1) : std::string_view();
     const std::size_t dash = part.find('-');
     const std::uint32_t first = parseNumber(part.substr(0, dash), part);
-    const std::uint32_t last = dash == std::string_view::npos ? first : parseNumber(part.substr(dash + 1), part);
+    const std::uint32_t last =
+        dash == std::string_view::npos ? first : parseNumber(part.substr(dash + 1), part);
     if (last < first) refuse(part);
     for (std::uint32_t frame = first; frame <= last; ++frame) {
       if (seen.insert(frame).second) frames.push_back(frame);

@@ -25,7 +25,8 @@ int run(int argc, char** argv) {
   using namespace ensemble::cli;
   CLI::App app("Dresses one template person in many outfits and renders crowds of them.", "ensemble");
   app.require_subcommand(1);
-  app.set_version_flag("--version", [] { return versionText(); }, "Print version, build type and Vulkan device");
+  app.set_version_flag(
+      "--version", [] { return versionText(); }, "Print version, build type and Vulkan device");
   for (const auto add : {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand,
                          addRenderCommand, addBenchCommand, addPeopleCommand}) {
     add(app);

@@ -7,7 +7,8 @@
 namespace ensemble::cli {
 
 std::string versionText() {
-  return fmt::format("ensemble {} ({}), Vulkan device: {}", ENSEMBLE_VERSION, ENSEMBLE_BUILD_TYPE, deviceName());
+  return fmt::format("ensemble {} ({}), Vulkan device: {}", ENSEMBLE_VERSION, ENSEMBLE_BUILD_TYPE,
+                     deviceName());
 }
 
 }  // namespace ensemble::cli

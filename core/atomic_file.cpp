@@ -37,7 +37,7 @@ class Descriptor {
 };
 
 [[noreturn]] void failWriting(const std::filesystem::path& file, int error) {
-  const char* mend = error == ENOSPC || error == EDQUOT ? "free some space and run it again"
+  const char* mend = error == ENOSPC || error == EDQUOT  ? "free some space and run it again"
                      : error == EACCES || error == EROFS ? "choose a folder that you may write to"
                      : error == ENOENT                   ? "make its folder first"
                                                          : "";

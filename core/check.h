@@ -18,7 +18,9 @@ class CheckError : public std::logic_error {
 namespace detail {
 
 template <class T>
-concept Streamable = requires(std::ostream& out, const T& value) { out << value; };
+concept Streamable = requires(std::ostream& out, const T& value) {
+  out << value;
+};
 
 /// Integers that std::cmp_less and its kin take: compared by value whatever their signs.
 template <class L, class R>
@@ -128,13 +130,14 @@ void verify(const CheckedLeft<L>& checked, const char* expression, const char* f
 }
 
 inline void verify(bool holds, const char* expression, const char* file, int line) {
-  if (!holds) throw CheckError(std::string(file) + ':' + std::to_string(line) + ": check failed: " + expression);
+  if (!holds)
+    throw CheckError(std::string(file) + ':' + std::to_string(line) + ": check failed: " + expression);
 }
 
 }  // namespace detail
 }  // namespace ensemble
 
 /// ENSEMBLE_CHECK(a == b): throws CheckError with both values unless it holds.
-#define ENSEMBLE_CHECK(...)                                                                \
-  ::ensemble::detail::verify(::ensemble::detail::CheckStart{} << __VA_ARGS__, #__VA_ARGS__, \
-                             __FILE__, __LINE__)
+#define ENSEMBLE_CHECK(...)                                                                           \
+  ::ensemble::detail::verify(::ensemble::detail::CheckStart{} << __VA_ARGS__, #__VA_ARGS__, __FILE__, \
+                             __LINE__)

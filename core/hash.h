@@ -18,8 +18,7 @@ class Sha256 {
   Sha256& feed(std::span<const std::byte> bytes);
   Sha256& feed(std::string_view text);  ///< its length, then its bytes
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  Sha256& feedValue(const T& value) {
+  requires std::is_trivially_copyable_v<T> Sha256& feedValue(const T& value) {
     return feed(std::as_bytes(std::span(&value, 1)));
   }
   std::string hex();  ///< ends the hash

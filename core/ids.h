@@ -63,10 +63,14 @@ class PerId {
   std::vector<T> data_;
 };
 
-template <class T> using PerFace = PerId<FaceId, T>;
-template <class T> using PerVertex = PerId<VertexId, T>;
-template <class T> using PerRegion = PerId<RegionId, T>;
-template <class T> using PerItem = PerId<ItemId, T>;
+template <class T>
+using PerFace = PerId<FaceId, T>;
+template <class T>
+using PerVertex = PerId<VertexId, T>;
+template <class T>
+using PerRegion = PerId<RegionId, T>;
+template <class T>
+using PerItem = PerId<ItemId, T>;
 
 }  // namespace ensemble
 

@@ -18,8 +18,8 @@ struct Image8 {
 };
 
 /// Width and height from the header alone. @throws InputError if it is neither PNG nor JPEG.
-void readImageHeader(std::span<const std::byte> bytes, const std::string& file,
-                     const std::string& where, RawImage& image);
+void readImageHeader(std::span<const std::byte> bytes, const std::string& file, const std::string& where,
+                     RawImage& image);
 
 /// Decodes a PNG or JPEG of any colour type. @throws InputError if it is damaged.
 Image8 decodeImage(const RawImage& image, const std::string& file);

@@ -16,8 +16,7 @@ void appendPart(std::string& line, const std::string& part, const char* separato
 
 }  // namespace
 
-UserError::UserError(ExitCode exit_code, ErrorText text)
-    : exit_code_(exit_code), text_(std::move(text)) {
+UserError::UserError(ExitCode exit_code, ErrorText text) : exit_code_(exit_code), text_(std::move(text)) {
   appendPart(line_, text_.file, ": ");
   appendPart(line_, text_.where, ": ");
   appendPart(line_, text_.what, ": ");

@@ -23,7 +23,8 @@ Triangle rotatedToSmallest(const Triangle& face) {
 }
 
 /// The visible faces of a body part as a small primitive whose vertices know their template vertex.
-RawPrimitive partialPrimitive(const TemplateBody& body, const BodyPart& part, const PerFace<std::uint8_t>& visible) {
+RawPrimitive partialPrimitive(const TemplateBody& body, const BodyPart& part,
+                              const PerFace<std::uint8_t>& visible) {
   constexpr std::uint32_t kUnused = 0xffffffffu;
   std::vector<std::uint32_t> renumbered(body.vertices.size(), kUnused);
   RawPrimitive primitive;
@@ -197,7 +198,8 @@ class ItemReader {
   /// Partial regions: each primitive's faces are found among the template's by vertex numbers.
   void readBody() {
     bool any_partial = false;
-    for (const RegionTag& tag : item_.tags) any_partial = any_partial || tag.visibility == Visibility::kPartial;
+    for (const RegionTag& tag : item_.tags)
+      any_partial = any_partial || tag.visibility == Visibility::kPartial;
     const bool has_body = next_mesh_ < asset_.meshes.size() &&
                           !asset_.meshes[next_mesh_].primitives.front().template_vertices.empty();
     if (!any_partial || !has_body) return;
@@ -225,7 +227,8 @@ class ItemReader {
   RegionId regionOfVertex(std::uint32_t vertex) const {
     for (std::size_t r = 0; r < body_.regions.size(); ++r) {
       const Region& region = body_.regions[RegionId(r)];
-      if (vertex >= region.first_vertex && vertex - region.first_vertex < region.vertex_count) return RegionId(r);
+      if (vertex >= region.first_vertex && vertex - region.first_vertex < region.vertex_count)
+        return RegionId(r);
     }
     fail("", "_TEMPLATE_VERTEX is out of range");
   }
@@ -256,8 +259,8 @@ class ItemReader {
     for (std::size_t r = 0; r < visible.size(); ++r) {
       if (visible[RegionId(r)] == item_.tags[RegionId(r)].visible_faces) continue;
       fail("/regions", "region '" + body_.regions[RegionId(r)].name + "' claims " +
-                           std::to_string(item_.tags[RegionId(r)].visible_faces) + " visible faces but shows " +
-                           std::to_string(visible[RegionId(r)]));
+                           std::to_string(item_.tags[RegionId(r)].visible_faces) +
+                           " visible faces but shows " + std::to_string(visible[RegionId(r)]));
     }
   }
 

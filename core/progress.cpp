@@ -32,9 +32,9 @@ void Progress::advance(std::uint64_t steps) {
 void Progress::draw() {
   const std::uint64_t total = std::max<std::uint64_t>(total_, 1);
   const int filled = static_cast<int>(std::min(done_, total) * kBarWidth / total);
-  std::fprintf(stderr, "\r%s [%.*s%*s] %llu/%llu", label_.c_str(), filled,
-               "##############################", kBarWidth - filled, "",
-               static_cast<unsigned long long>(done_), static_cast<unsigned long long>(total_));
+  std::fprintf(stderr, "\r%s [%.*s%*s] %llu/%llu", label_.c_str(), filled, "##############################",
+               kBarWidth - filled, "", static_cast<unsigned long long>(done_),
+               static_cast<unsigned long long>(total_));
   std::fflush(stderr);
 }
 

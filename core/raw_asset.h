@@ -56,8 +56,8 @@ enum class AlphaMode : std::uint8_t { kOpaque, kMask };
 
 struct RawMaterial {
   std::string name;
-  Vec4 base_color{1.0f};               ///< linear RGBA factor
-  std::optional<std::uint32_t> image;  ///< base colour texture, index into RawAsset::images
+  Vec4 base_color{1.0f};                  ///< linear RGBA factor
+  std::optional<std::uint32_t> image;     ///< base colour texture, index into RawAsset::images
   bool repeat_u = true, repeat_v = true;  ///< false: clamp to edge (mirrored repeat counts as repeat)
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
@@ -68,8 +68,8 @@ struct RawMaterial {
 /// An image as its file holds it, PNG or JPEG; image_file.h decodes it.
 struct RawImage {
   std::string name;
-  std::string mime_type;          ///< "image/png" or "image/jpeg"
-  std::vector<std::byte> bytes;   ///< the encoded file; its header has been checked
+  std::string mime_type;         ///< "image/png" or "image/jpeg"
+  std::vector<std::byte> bytes;  ///< the encoded file; its header has been checked
   std::uint32_t width = 0, height = 0;
   bool operator==(const RawImage&) const = default;
 };
@@ -83,7 +83,7 @@ struct RawBone {
 
 /// An entry of the skin: the bones that vertices may name.
 struct RawJoint {
-  std::uint32_t bone = 0;      ///< index into RawSkeleton::bones
+  std::uint32_t bone = 0;       ///< index into RawSkeleton::bones
   Mat4 joint_from_model{1.0f};  ///< inverse bind matrix for model space
 };
 

@@ -243,7 +243,8 @@ class ListsBuilder {
 
   void showBodyPart(std::size_t combination, std::size_t part, IndexListId list) {
     if (!list.valid()) return;
-    const std::uint32_t material = addMaterial(body_.materials[body_.parts[part].material], body_.images, true);
+    const std::uint32_t material =
+        addMaterial(body_.materials[body_.parts[part].material], body_.images, true);
     show(combination, SubMesh{SubMeshKind::kBody, list, material, body_.parts[part].region.value, 0},
          static_cast<std::uint32_t>(2 + part));
   }
@@ -290,7 +291,8 @@ class ListsBuilder {
     const auto found = std::find(lists_.garment_names.begin(), lists_.garment_names.end(), name);
     if (found == lists_.garment_names.end()) lists_.garment_names.push_back(name);
     return static_cast<std::uint32_t>(
-        std::find(lists_.garment_names.begin(), lists_.garment_names.end(), name) - lists_.garment_names.begin());
+        std::find(lists_.garment_names.begin(), lists_.garment_names.end(), name) -
+        lists_.garment_names.begin());
   }
 
   /// Lets a combination show a sub-mesh. `rank` says when it is drawn: garments, extra body faces,

@@ -18,8 +18,7 @@
 namespace ensemble {
 
 enum class Technique : std::uint8_t { kNaive, kPrefitted, kTagged };
-inline constexpr Technique kAllTechniques[] = {Technique::kNaive, Technique::kPrefitted,
-                                               Technique::kTagged};
+inline constexpr Technique kAllTechniques[] = {Technique::kNaive, Technique::kPrefitted, Technique::kTagged};
 const char* toString(Technique technique);  ///< "naive", "prefitted", "tagged"
 std::optional<Technique> parseTechnique(std::string_view name);
 
@@ -38,7 +37,7 @@ enum class SubMeshKind : std::uint8_t { kGarment, kBody };
 /// Faces of a mesh, stored once however many sub-meshes use them.
 struct IndexList {
   MeshId mesh;
-  std::vector<std::uint32_t> indices;       ///< 3 per face, into the mesh, in vertex-cache order
+  std::vector<std::uint32_t> indices;  ///< 3 per face, into the mesh, in vertex-cache order
   /// Per face of the list: its FaceId in the template (is_template), else its number in its part.
   std::vector<std::uint32_t> source_faces;
   bool is_template = false;
@@ -56,18 +55,18 @@ struct SubMesh {
 
 /// A material and where it came from.
 struct ListMaterial {
-  RawMaterial material;              ///< `image` indexes SubMeshLists::images
-  bool is_skin = false;              ///< a material of the body: tinted as skin, else as cloth
+  RawMaterial material;  ///< `image` indexes SubMeshLists::images
+  bool is_skin = false;  ///< a material of the body: tinted as skin, else as cloth
 };
 
 struct SubMeshLists {
   Technique technique = Technique::kTagged;
   PerId<MeshId, Mesh> meshes;
   PerId<IndexListId, IndexList> index_lists;
-  PerId<SubMeshId, SubMesh> sub_meshes;   ///< garments first, then the body by region: draw order
-  std::vector<ListMaterial> materials;    ///< distinct
-  std::vector<RawImage> images;           ///< distinct
-  std::vector<std::string> garment_names; ///< distinct
+  PerId<SubMeshId, SubMesh> sub_meshes;    ///< garments first, then the body by region: draw order
+  std::vector<ListMaterial> materials;     ///< distinct
+  std::vector<RawImage> images;            ///< distinct
+  std::vector<std::string> garment_names;  ///< distinct
   std::vector<Combination> combinations;
   /// Per combination: its sub-meshes, ascending.
   std::vector<std::vector<SubMeshId>> shown;

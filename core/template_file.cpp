@@ -17,7 +17,8 @@ constexpr const char* kMend = "make the wardrobe again with `ensemble tag`";
 /// Ground speeds can't be seen in the channels, so they stand in the extras, by clip name.
 json clipExtras(const TemplateBody& body) {
   json clips = json::array();
-  for (const Clip& clip : body.clips) clips.push_back({{"name", clip.name}, {"ground_speed", clip.ground_speed}});
+  for (const Clip& clip : body.clips)
+    clips.push_back({{"name", clip.name}, {"ground_speed", clip.ground_speed}});
   return clips;
 }
 
@@ -65,8 +66,9 @@ TemplateBody templateFromAsset(const RawAsset& asset, const std::string& file) {
   const json extras = json::parse(asset.extras_json, nullptr, false);
   const json ensemble = extras.is_object() ? extras.value("ensemble", json()) : json();
   const json regions = ensemble.is_object() ? ensemble.value("primitive_regions", json()) : json();
-  if (!ensemble.is_object() || ensemble.value("schema", json()) != kTemplateSchema || asset.meshes.size() != 1 ||
-      !regions.is_array() || regions.size() != asset.meshes.front().primitives.size() || regions.empty()) {
+  if (!ensemble.is_object() || ensemble.value("schema", json()) != kTemplateSchema ||
+      asset.meshes.size() != 1 || !regions.is_array() ||
+      regions.size() != asset.meshes.front().primitives.size() || regions.empty()) {
     throw InputError({file, "/extras/ensemble", "this is not the template of a wardrobe", kMend});
   }
 
@@ -80,7 +82,8 @@ TemplateBody templateFromAsset(const RawAsset& asset, const std::string& file) {
     const std::string name = regions[p];
     if (body.regions.empty() || body.regions.raw().back().name != name) {
       for (const Region& region : body.regions) {
-        if (region.name == name) throw InputError({file, "/extras/ensemble", "region '" + name + "' is torn", kMend});
+        if (region.name == name)
+          throw InputError({file, "/extras/ensemble", "region '" + name + "' is torn", kMend});
       }
       body.regions.push({name, static_cast<std::uint32_t>(body.faces.size()), 0,
                          static_cast<std::uint32_t>(body.vertices.size()), 0});
@@ -116,7 +119,8 @@ std::string geometryHash(const TemplateBody& body) {
   hash.feed("ensemble.geometry/1");
   for (const RawVertex& vertex : body.vertices) hash.feedValue(vertex.position);
   for (const Triangle& face : body.faces) hash.feedValue(face);
-  for (const Region& region : body.regions) hash.feed(std::string_view(region.name)).feedValue(region.face_count);
+  for (const Region& region : body.regions)
+    hash.feed(std::string_view(region.name)).feedValue(region.face_count);
   for (const RawJoint& joint : body.skeleton.joints) {
     hash.feed(std::string_view(body.skeleton.bones[joint.bone].name));
   }

@@ -17,14 +17,16 @@ std::string textOf(const std::vector<std::byte>& bytes) {
 }
 
 /// A file that the manifest names, checked against its SHA-256 and read without welding.
-RawAsset readChecked(const std::filesystem::path& folder, const std::string& file, const std::string& sha256) {
+RawAsset readChecked(const std::filesystem::path& folder, const std::string& file,
+                     const std::string& sha256) {
   const std::filesystem::path path = folder / file;
   if (!std::filesystem::exists(path)) {
     throw InputError({path.string(), "", "this file of the wardrobe is missing", kMend});
   }
   const std::vector<std::byte> bytes = readFile(path);
   if (sha256Hex(bytes) != sha256) {
-    throw InputError({path.string(), "", "this file is damaged: its SHA-256 is not the one in wardrobe.json", kMend});
+    throw InputError(
+        {path.string(), "", "this file is damaged: its SHA-256 is not the one in wardrobe.json", kMend});
   }
   GltfReadOptions options;
   options.weld = false;
@@ -33,8 +35,8 @@ RawAsset readChecked(const std::filesystem::path& folder, const std::string& fil
 
 void checkTemplate(const TemplateBody& body, const ManifestTemplate& manifest, const std::string& file) {
   bool same = body.faces.size() == manifest.faces && body.vertices.size() == manifest.vertices &&
-              body.skeleton.joints.size() == manifest.joints && body.regions.size() == manifest.regions.size() &&
-              body.clips.size() == manifest.clips.size();
+              body.skeleton.joints.size() == manifest.joints &&
+              body.regions.size() == manifest.regions.size() && body.clips.size() == manifest.clips.size();
   for (std::size_t r = 0; same && r < body.regions.size(); ++r) {
     const Region& region = body.regions[RegionId(r)];
     same = region.name == manifest.regions[r].name && region.face_count == manifest.regions[r].faces;
@@ -60,13 +62,15 @@ Wardrobe loadOnce(const std::filesystem::path& folder, const std::string& manife
   for (std::size_t i = 0; i < manifest.outfits.size(); ++i) {
     const ManifestOutfit& entry = manifest.outfits[i];
     const std::string path = (folder / entry.file).string();
-    Item item = itemFromAsset(readChecked(folder, entry.file, entry.sha256), wardrobe.body, wardrobe.geometry_hash, path);
+    Item item = itemFromAsset(readChecked(folder, entry.file, entry.sha256), wardrobe.body,
+                              wardrobe.geometry_hash, path);
     Manifest claimed, held;
     claimed.outfits = {entry};
     held.outfits = {manifestEntry(item, wardrobe.body, entry.file, entry.sha256)};
     if (writeManifest(claimed) != writeManifest(held)) {
       throw InputError({manifest_file, "/outfits/" + std::to_string(i),
-                        "the manifest describes another outfit than its file '" + entry.file + "' holds", kMend});
+                        "the manifest describes another outfit than its file '" + entry.file + "' holds",
+                        kMend});
     }
     wardrobe.items.push(std::move(item));
     wardrobe.item_files.push(entry.file);
@@ -78,9 +82,12 @@ Wardrobe loadOnce(const std::filesystem::path& folder, const std::string& manife
 
 const char* toString(Visibility visibility) {
   switch (visibility) {
-    case Visibility::kFull: return "full";
-    case Visibility::kPartial: return "partial";
-    case Visibility::kHidden: return "hidden";
+    case Visibility::kFull:
+      return "full";
+    case Visibility::kPartial:
+      return "partial";
+    case Visibility::kHidden:
+      return "hidden";
   }
   return "?";
 }

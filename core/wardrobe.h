@@ -35,10 +35,10 @@ struct BodyPart {
 /// other, inside a region the source's order. A vertex (wedge) belongs to one region.
 struct TemplateBody {
   PerVertex<RawVertex> vertices;
-  PerFace<Triangle> faces;          ///< indices into vertices
+  PerFace<Triangle> faces;  ///< indices into vertices
   PerFace<RegionId> region_of_face;
   PerRegion<Region> regions;
-  std::vector<BodyPart> parts;      ///< in face order; together they cover every face once
+  std::vector<BodyPart> parts;  ///< in face order; together they cover every face once
   std::vector<RawMaterial> materials;
   std::vector<RawImage> images;
   RawSkeleton skeleton;
@@ -84,11 +84,11 @@ struct Item {
 
 struct Wardrobe {
   std::filesystem::path folder;
-  std::string template_file;                        ///< relative to folder
-  std::string template_sha256, geometry_hash;       ///< hex
+  std::string template_file;                   ///< relative to folder
+  std::string template_sha256, geometry_hash;  ///< hex
   TemplateBody body;
-  PerItem<Item> items;                  ///< in the manifest's order
-  PerItem<std::string> item_files;      ///< relative to folder
+  PerItem<Item> items;              ///< in the manifest's order
+  PerItem<std::string> item_files;  ///< relative to folder
 };
 
 /// Loads a wardrobe folder: manifest checked against its JSON Schema, every file against its

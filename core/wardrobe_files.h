@@ -90,7 +90,8 @@ Item itemFromAsset(const RawAsset& asset, const TemplateBody& body, const std::s
                    const std::string& file);
 
 /// An item's manifest entry, from what its file holds.
-ManifestOutfit manifestEntry(const Item& item, const TemplateBody& body, std::string file, std::string sha256);
+ManifestOutfit manifestEntry(const Item& item, const TemplateBody& body, std::string file,
+                             std::string sha256);
 
 /// Whether a name can stand in a file name and in a scene: 1 to 100 bytes, no control characters,
 /// no '/', not starting with '.'.

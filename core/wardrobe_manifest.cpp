@@ -36,9 +36,14 @@ OrderedJson toJson(const ManifestTemplate& body) {
                      {"keys", clip.keys},
                      {"ground_speed", rounded(clip.ground_speed)}});
   }
-  return {{"file", body.file},         {"sha256", body.sha256},     {"geometry_hash", body.geometry_hash},
-          {"faces", body.faces},       {"vertices", body.vertices}, {"joints", body.joints},
-          {"regions", std::move(regions)}, {"clips", std::move(clips)}};
+  return {{"file", body.file},
+          {"sha256", body.sha256},
+          {"geometry_hash", body.geometry_hash},
+          {"faces", body.faces},
+          {"vertices", body.vertices},
+          {"joints", body.joints},
+          {"regions", std::move(regions)},
+          {"clips", std::move(clips)}};
 }
 
 OrderedJson toJson(const ManifestOutfit& outfit) {
@@ -52,8 +57,9 @@ OrderedJson toJson(const ManifestOutfit& outfit) {
                        {"template_faces", tag.template_faces},
                        {"visible_faces", tag.visible_faces}});
   }
-  return {{"name", outfit.name},   {"file", outfit.file}, {"sha256", outfit.sha256}, {"slot", outfit.slot},
-          {"layer", outfit.layer}, {"garments", std::move(garments)}, {"regions", std::move(regions)}};
+  return {{"name", outfit.name},          {"file", outfit.file},   {"sha256", outfit.sha256},
+          {"slot", outfit.slot},          {"layer", outfit.layer}, {"garments", std::move(garments)},
+          {"regions", std::move(regions)}};
 }
 
 /// Another version is refused by name before the schema complains about its details.
@@ -87,13 +93,14 @@ void checkSchema(const json& document, const std::string& file) {
     if (step == "<root>") continue;
     where += "/" + (step.size() > 2 && step.front() == '[' ? step.substr(1, step.size() - 2) : step);
   }
-  throw InputError({file, where.empty() ? "/" : where, error.description,
-                    "make the wardrobe again with `ensemble tag`"});
+  throw InputError(
+      {file, where.empty() ? "/" : where, error.description, "make the wardrobe again with `ensemble tag`"});
 }
 
 void checkFileName(const std::string& name, const std::string& file, const std::string& where) {
   const std::filesystem::path path(name);
-  bool leaves = path.is_absolute() || name.find('\0') != std::string::npos || name.find('\\') != std::string::npos;
+  bool leaves =
+      path.is_absolute() || name.find('\0') != std::string::npos || name.find('\\') != std::string::npos;
   for (const auto& step : path) leaves = leaves || step == "..";
   if (leaves) {
     throw InputError({file, where, "file '" + name + "' is not in the wardrobe's folder",
@@ -106,7 +113,8 @@ void checkDistinctNames(const List& list, const std::string& file, const std::st
   std::set<std::string> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (names.insert(list[i].name).second) continue;
-    throw InputError({file, where + "/" + std::to_string(i) + "/name", "name '" + list[i].name + "' stands twice",
+    throw InputError({file, where + "/" + std::to_string(i) + "/name",
+                      "name '" + list[i].name + "' stands twice",
                       "make the wardrobe again with `ensemble tag`"});
   }
 }
@@ -172,7 +180,8 @@ Manifest parseManifest(const std::string& text, const std::string& file) {
     const std::string where = "/outfits/" + std::to_string(manifest.outfits.size() - 1);
     checkFileName(manifest.outfits.back().file, file, where + "/file");
     if (!isValidItemName(manifest.outfits.back().name)) {
-      throw InputError({file, where + "/name", "'" + manifest.outfits.back().name + "' can't be an outfit's name",
+      throw InputError({file, where + "/name",
+                        "'" + manifest.outfits.back().name + "' can't be an outfit's name",
                         "make the wardrobe again with `ensemble tag`"});
     }
   }
@@ -180,7 +189,8 @@ Manifest parseManifest(const std::string& text, const std::string& file) {
   return manifest;
 }
 
-ManifestOutfit manifestEntry(const Item& item, const TemplateBody& body, std::string file, std::string sha256) {
+ManifestOutfit manifestEntry(const Item& item, const TemplateBody& body, std::string file,
+                             std::string sha256) {
   ManifestOutfit entry{item.name, std::move(file), std::move(sha256), item.slot, item.layer, {}, {}};
   for (const Garment& garment : item.garments) {
     std::uint32_t faces = 0;

@@ -36,7 +36,8 @@ std::vector<Box> jointBoxes(const Wardrobe& wardrobe) {
   for (const RawVertex& vertex : wardrobe.body.vertices) add(vertex);
   for (const Item& item : wardrobe.items) {
     for (const Garment& garment : item.garments) {
-      for (const ItemPart& part : garment.parts) std::for_each(part.vertices.begin(), part.vertices.end(), add);
+      for (const ItemPart& part : garment.parts)
+        std::for_each(part.vertices.begin(), part.vertices.end(), add);
     }
     for (const ExtraBodyPart& extra : item.extra_body) {
       std::for_each(extra.part.vertices.begin(), extra.part.vertices.end(), add);

@@ -16,10 +16,10 @@ namespace ensemble {
 /// Each wardrobe has one joint more than its skeleton, the last, which never moves: vertices that
 /// no joint moves hang on it.
 struct Animation {
-  std::vector<vec4> texels;        ///< 3 rows per matrix, see GpuClip
-  std::vector<GpuClip> clips;      ///< of all wardrobes
-  std::vector<float> seconds;      ///< per clip: length; 0 where there is one key
-  std::vector<Sphere> bounds;      ///< per clip, model space: holds every vertex of every item at any time
+  std::vector<vec4> texels;    ///< 3 rows per matrix, see GpuClip
+  std::vector<GpuClip> clips;  ///< of all wardrobes
+  std::vector<float> seconds;  ///< per clip: length; 0 where there is one key
+  std::vector<Sphere> bounds;  ///< per clip, model space: holds every vertex of every item at any time
   std::vector<std::uint32_t> first_clip;   ///< per wardrobe: its first clip
   std::vector<std::uint32_t> joint_count;  ///< per wardrobe: with the one that never moves
 };

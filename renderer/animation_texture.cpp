@@ -13,10 +13,11 @@ gpu::Image uploadAnimation(gpu::Device& device, const Animation& animation) {
   const std::uint64_t rows = std::max<std::uint64_t>(1, (animation.texels.size() + kWidth - 1) / kWidth);
   const std::uint32_t limit = device.limits().maxImageDimension2D;
   if (rows > limit) {
-    throw SystemError({.file = {},
-                       .where = "Vulkan device " + device.name(),
-                       .what = fmt::format("the clips need {} rows of an image, the device has {}", rows, limit),
-                       .mend = "use fewer or shorter clips"});
+    throw SystemError(
+        {.file = {},
+         .where = "Vulkan device " + device.name(),
+         .what = fmt::format("the clips need {} rows of an image, the device has {}", rows, limit),
+         .mend = "use fewer or shorter clips"});
   }
   gpu::Image image(device,
                    {.width = kWidth,

@@ -19,13 +19,14 @@ AovPass::AovPass(const gpu::Device& device, const CrowdLayout& layout, const Cro
     return makePipeline(device, layout.pipelineLayout(), options);
   };
   for (const DrawItem& item : assets.items()) {
-    makeIfMissing(people_, variantFor(item.state), [&](ShaderVariant variant) { return make(kCrowdVert, kAovFrag, {.variant = variant}); });
+    makeIfMissing(people_, variantFor(item.state),
+                  [&](ShaderVariant variant) { return make(kCrowdVert, kAovFrag, {.variant = variant}); });
   }
   ground_ = make(kGroundVert, kGroundAovFrag, {.draws_people = false});
 }
 
-void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const ViewTargets& targets,
-                     const View& view) const {
+void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
+                     const ViewTargets& targets, const View& view) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   using Layout = vk::ImageLayout;
@@ -75,7 +76,8 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
   }
 }
 
-void AovPass::recordDraws(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const View& view) const {
+void AovPass::recordDraws(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
+                          const View& view) const {
   recordCrowd(commands, draw, nullptr, 0, [&](const DrawState& state) -> const vk::raii::Pipeline& {
     return people_[variantIndex(variantFor(state))];
   });

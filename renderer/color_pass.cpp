@@ -26,18 +26,19 @@ void ColorPass::prepare(std::uint32_t samples) {
     return makePipeline(device_, layout_.pipelineLayout(), options);
   };
   for (const DrawItem& item : assets_.items()) {
-    makeIfMissing(pipelines.people, variantFor(item.state), [&](ShaderVariant variant) {
-      return make(kCrowdVert, kCrowdFrag, {.variant = variant});
-    });
+    makeIfMissing(pipelines.people, variantFor(item.state),
+                  [&](ShaderVariant variant) { return make(kCrowdVert, kCrowdFrag, {.variant = variant}); });
   }
   pipelines.ground = make(kGroundVert, kGroundFrag, {.draws_people = false});
   // Where nothing was drawn depth is still 0, that of the sky.
-  pipelines.sky = make(kSkyVert, kSkyFrag, {.draws_people = false, .depth_compare = vk::CompareOp::eEqual,
-                                            .writes_depth = false});
+  pipelines.sky =
+      make(kSkyVert, kSkyFrag,
+           {.draws_people = false, .depth_compare = vk::CompareOp::eEqual, .writes_depth = false});
 }
 
-void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const ViewTargets& targets,
-                       const View& view, VertexCounter& counter, std::uint32_t counted_pass) const {
+void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
+                       const ViewTargets& targets, const View& view, VertexCounter& counter,
+                       std::uint32_t counted_pass) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   using Layout = vk::ImageLayout;
@@ -78,9 +79,10 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
                            .pDepthAttachment = &depth});
   recordFullViewport(commands, targets.size.width, targets.size.height);
   const Pipelines& pipelines = pipelinesFor(targets.size.samples);
-  recordCrowd(commands, draw, &counter, counted_pass, [&](const DrawState& state) -> const vk::raii::Pipeline& {
-    return pipelines.people[variantIndex(variantFor(state))];
-  });
+  recordCrowd(commands, draw, &counter, counted_pass,
+              [&](const DrawState& state) -> const vk::raii::Pipeline& {
+                return pipelines.people[variantIndex(variantFor(state))];
+              });
   recordBackground(commands, draw, view);
   commands.endRendering();
   gpu::recordBarrier(commands, targets.linear,

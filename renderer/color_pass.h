@@ -25,7 +25,8 @@ class ColorPass {
   static ShaderVariant variantFor(const DrawState& state) {
     return {.textured = state.textured, .cut_out = state.cut_out, .hides_faces = false};
   }
-  void recordBackground(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const View& view) const;
+  void recordBackground(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
+                        const View& view) const;
 
   const gpu::Device& device_;
   const CrowdLayout& layout_;

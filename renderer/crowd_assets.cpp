@@ -72,11 +72,12 @@ class CrowdAssets::Builder {
 
   void checkSize(std::uint64_t bytes, const char* what) const {
     if (bytes <= input_.limits.max_buffer_bytes) return;
-    throw SystemError({.file = {},
-                       .where = "Vulkan device " + device_.name(),
-                       .what = fmt::format("{} needs {}, one buffer holds {}", what, gpu::describeBytes(bytes),
-                                           gpu::describeBytes(input_.limits.max_buffer_bytes)),
-                       .mend = "use smaller meshes or fewer combinations"});
+    throw SystemError(
+        {.file = {},
+         .where = "Vulkan device " + device_.name(),
+         .what = fmt::format("{} needs {}, one buffer holds {}", what, gpu::describeBytes(bytes),
+                             gpu::describeBytes(input_.limits.max_buffer_bytes)),
+         .mend = "use smaller meshes or fewer combinations"});
   }
 
   void collectTextures() {
@@ -124,8 +125,8 @@ class CrowdAssets::Builder {
       vertices_.emplace_back();
     }
     std::vector<GpuVertex>& chunk = vertices_.back();
-    placed[id.value] = PlacedMesh{static_cast<std::uint32_t>(vertices_.size() - 1),
-                                  static_cast<std::int32_t>(chunk.size())};
+    placed[id.value] =
+        PlacedMesh{static_cast<std::uint32_t>(vertices_.size() - 1), static_cast<std::int32_t>(chunk.size())};
     for (GpuVertex vertex : mesh.vertices) {
       const auto* weights = vertex.weights;
       if ((weights[0] | weights[1] | weights[2] | weights[3]) == 0) {
@@ -143,7 +144,8 @@ class CrowdAssets::Builder {
       if (indices_[i].wide != wide) continue;
       const std::uint64_t index_bytes = indices_[i].indexBytes() + count * (wide ? 4 : 2);
       const std::uint64_t face_bytes = (indices_[i].source_faces.size() + count / 3) * 4;
-      if (std::max(index_bytes, face_bytes) <= input_.limits.max_buffer_bytes) return static_cast<std::uint32_t>(i);
+      if (std::max(index_bytes, face_bytes) <= input_.limits.max_buffer_bytes)
+        return static_cast<std::uint32_t>(i);
       break;
     }
     indices_.push_back({.wide = wide, .indices = {}, .source_faces = {}});
@@ -177,7 +179,8 @@ class CrowdAssets::Builder {
     GpuMaterial material = makeMaterial(w, from);
     const bool is_body = sub_mesh.kind == SubMeshKind::kBody;
     const std::string name = is_body ? std::string() : lists(w).garment_names[sub_mesh.region];
-    material.tint_key = tintKey(tintKindOf(from.material.name, from.is_skin), name + "/" + from.material.name);
+    material.tint_key =
+        tintKey(tintKindOf(from.material.name, from.is_skin), name + "/" + from.material.name);
     const auto same = [&](const GpuMaterial& other) {
       return std::memcmp(&other, &material, sizeof material) == 0;
     };
@@ -277,7 +280,8 @@ class CrowdAssets::Builder {
     IndexChunk chunk;
     chunk.type = from.wide ? vk::IndexType::eUint32 : vk::IndexType::eUint16;
     if (from.wide) {
-      chunk.indices = gpu::uploadBuffer(device_, bytesOf(from.indices), Usage::eIndexBuffer, "a buffer of indices");
+      chunk.indices =
+          gpu::uploadBuffer(device_, bytesOf(from.indices), Usage::eIndexBuffer, "a buffer of indices");
     } else {
       std::vector<std::uint16_t> narrow;
       narrow.reserve(from.indices.size());

@@ -19,11 +19,11 @@ namespace ensemble {
 
 /// Draws of one state follow each other and go to the device in one call.
 struct DrawState {
-  bool is_body = false;       ///< garments are drawn before skin
+  bool is_body = false;  ///< garments are drawn before skin
   bool double_sided = false;
   bool textured = false;
-  bool cut_out = false;       ///< fragments are discarded by alpha
-  bool hides_faces = false;   ///< naive: hidden faces cast no shadow
+  bool cut_out = false;      ///< fragments are discarded by alpha
+  bool hides_faces = false;  ///< naive: hidden faces cast no shadow
   std::uint32_t texture_set = 0;
   std::uint32_t index_chunk = 0;
   std::uint32_t vertex_chunk = 0;

@@ -6,9 +6,10 @@ VertexCounter::VertexCounter(const gpu::Device& device, std::uint32_t pass_count
   if (!device.hasPipelineStatistics()) return;
   pool_ = ENSEMBLE_VK(vk::raii::QueryPool(
       device.handle(),
-      vk::QueryPoolCreateInfo{.queryType = vk::QueryType::ePipelineStatistics,
-                              .queryCount = pass_count,
-                              .pipelineStatistics = vk::QueryPipelineStatisticFlagBits::eVertexShaderInvocations}));
+      vk::QueryPoolCreateInfo{
+          .queryType = vk::QueryType::ePipelineStatistics,
+          .queryCount = pass_count,
+          .pipelineStatistics = vk::QueryPipelineStatisticFlagBits::eVertexShaderInvocations}));
 }
 
 void VertexCounter::reset(const vk::raii::CommandBuffer& commands) {
@@ -34,7 +35,8 @@ std::optional<std::uint64_t> VertexCounter::result(const gpu::Device& device, st
   const vk::Result result = ENSEMBLE_VK(handle.getQueryPoolResults(
       *pool_, pass, 1, sizeof count, &count, sizeof count,
       vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait, *device.handle().getDispatcher()));
-  if (result != vk::Result::eSuccess) gpu::throwVulkanError(result, "getQueryPoolResults", __FILE__, __LINE__);
+  if (result != vk::Result::eSuccess)
+    gpu::throwVulkanError(result, "getQueryPoolResults", __FILE__, __LINE__);
   return count;
 }
 

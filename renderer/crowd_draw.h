@@ -38,7 +38,8 @@ class VertexCounter {
 };
 
 /// Binds what a batch needs. Sets that stay are bound again: a batch is a whole call of many draws.
-inline void bindBatch(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const DrawState& state) {
+inline void bindBatch(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
+                      const DrawState& state) {
   const vk::PipelineLayout layout = *draw.layout->pipelineLayout();
   const VertexChunk& vertices = draw.assets->vertexChunk(state.vertex_chunk);
   const IndexChunk& indices = draw.assets->indexChunk(state.index_chunk);

@@ -21,14 +21,15 @@ CrowdLayout::CrowdLayout(gpu::Device& device, const CrowdAssets& assets)
       crowd_(gpu::makeSetLayout(device, kCrowdBindings, kStages)),
       assets_(gpu::makeSetLayout(device, kAssetBindings, kStages)) {
   // In the order of ENSEMBLE_SET_...
-  const std::array<vk::DescriptorSetLayout, 4> layouts = {*view_, *crowd_, *assets_, *assets.textures().layout()};
+  const std::array<vk::DescriptorSetLayout, 4> layouts = {*view_, *crowd_, *assets_,
+                                                          *assets.textures().layout()};
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(std::uint32_t)};
-  pipeline_layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
-      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
-                                                    .pSetLayouts = layouts.data(),
-                                                    .pushConstantRangeCount = 1,
-                                                    .pPushConstantRanges = &push}));
+  pipeline_layout_ = ENSEMBLE_VK(
+      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
+                                                                             .pSetLayouts = layouts.data(),
+                                                                             .pushConstantRangeCount = 1,
+                                                                             .pPushConstantRanges = &push}));
   asset_sets_ = gpu::DescriptorSets(device, assets_, kAssetBindings,
                                     static_cast<std::uint32_t>(assets.indexChunkCount()));
   for (std::uint32_t i = 0; i < assets.indexChunkCount(); ++i) {
@@ -36,7 +37,8 @@ CrowdLayout::CrowdLayout(gpu::Device& device, const CrowdAssets& assets)
     gpu::writeBuffer(device, asset_sets_[i], ENSEMBLE_BINDING_TINTS, assets.tints());
     gpu::writeBuffer(device, asset_sets_[i], ENSEMBLE_BINDING_HIDDEN_FIRST, assets.hiddenFirst());
     gpu::writeBuffer(device, asset_sets_[i], ENSEMBLE_BINDING_HIDDEN_WORDS, assets.hiddenWords());
-    gpu::writeBuffer(device, asset_sets_[i], ENSEMBLE_BINDING_SOURCE_FACES, assets.indexChunk(i).source_faces);
+    gpu::writeBuffer(device, asset_sets_[i], ENSEMBLE_BINDING_SOURCE_FACES,
+                     assets.indexChunk(i).source_faces);
   }
 }
 

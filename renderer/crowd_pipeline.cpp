@@ -8,15 +8,25 @@ namespace {
 constexpr vk::VertexInputBindingDescription kVertexBinding{
     .binding = 0, .stride = sizeof(GpuVertex), .inputRate = vk::VertexInputRate::eVertex};
 constexpr std::array<vk::VertexInputAttributeDescription, 5> kVertexAttributes = {{
-    {.location = ENSEMBLE_ATTRIBUTE_POSITION, .binding = 0, .format = vk::Format::eR32G32B32Sfloat,
+    {.location = ENSEMBLE_ATTRIBUTE_POSITION,
+     .binding = 0,
+     .format = vk::Format::eR32G32B32Sfloat,
      .offset = offsetof(GpuVertex, position)},
-    {.location = ENSEMBLE_ATTRIBUTE_JOINTS, .binding = 0, .format = vk::Format::eR16G16B16A16Uint,
+    {.location = ENSEMBLE_ATTRIBUTE_JOINTS,
+     .binding = 0,
+     .format = vk::Format::eR16G16B16A16Uint,
      .offset = offsetof(GpuVertex, joints)},
-    {.location = ENSEMBLE_ATTRIBUTE_WEIGHTS, .binding = 0, .format = vk::Format::eR16G16B16A16Unorm,
+    {.location = ENSEMBLE_ATTRIBUTE_WEIGHTS,
+     .binding = 0,
+     .format = vk::Format::eR16G16B16A16Unorm,
      .offset = offsetof(GpuVertex, weights)},
-    {.location = ENSEMBLE_ATTRIBUTE_UV, .binding = 0, .format = vk::Format::eR32G32Sfloat,
+    {.location = ENSEMBLE_ATTRIBUTE_UV,
+     .binding = 0,
+     .format = vk::Format::eR32G32Sfloat,
      .offset = offsetof(GpuVertex, uv)},
-    {.location = ENSEMBLE_ATTRIBUTE_NORMAL, .binding = 0, .format = vk::Format::eR16G16Snorm,
+    {.location = ENSEMBLE_ATTRIBUTE_NORMAL,
+     .binding = 0,
+     .format = vk::Format::eR16G16Snorm,
      .offset = offsetof(GpuVertex, normal_oct)},
 }};
 constexpr std::array<vk::DynamicState, 3> kDynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor,
@@ -94,20 +104,20 @@ vk::raii::Pipeline makePipeline(const gpu::Device& device, const vk::raii::Pipel
       .colorAttachmentCount = static_cast<std::uint32_t>(options.color_formats.size()),
       .pColorAttachmentFormats = options.color_formats.data(),
       .depthAttachmentFormat = vk::Format::eD32Sfloat};
-  return ENSEMBLE_VK(vk::raii::Pipeline(
-      device.handle(), nullptr,
-      vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
-                                     .stageCount = options.fragment_shader ? 2u : 1u,
-                                     .pStages = stages.data(),
-                                     .pVertexInputState = &vertex_input,
-                                     .pInputAssemblyState = &assembly,
-                                     .pViewportState = &viewport,
-                                     .pRasterizationState = &raster,
-                                     .pMultisampleState = &multisample,
-                                     .pDepthStencilState = &depth,
-                                     .pColorBlendState = &blend,
-                                     .pDynamicState = &dynamic,
-                                     .layout = *layout}));
+  return ENSEMBLE_VK(
+      vk::raii::Pipeline(device.handle(), nullptr,
+                         vk::GraphicsPipelineCreateInfo{.pNext = &rendering,
+                                                        .stageCount = options.fragment_shader ? 2u : 1u,
+                                                        .pStages = stages.data(),
+                                                        .pVertexInputState = &vertex_input,
+                                                        .pInputAssemblyState = &assembly,
+                                                        .pViewportState = &viewport,
+                                                        .pRasterizationState = &raster,
+                                                        .pMultisampleState = &multisample,
+                                                        .pDepthStencilState = &depth,
+                                                        .pColorBlendState = &blend,
+                                                        .pDynamicState = &dynamic,
+                                                        .layout = *layout}));
 }
 
 }  // namespace ensemble

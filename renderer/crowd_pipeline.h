@@ -21,12 +21,12 @@ struct PipelineOptions {
   vk::ShaderModule vertex_shader = {};
   vk::ShaderModule fragment_shader = {};  ///< null: depth only
   ShaderVariant variant = {};
-  bool draws_people = true;          ///< vertices as in vertex.h; else the shader makes its own
+  bool draws_people = true;  ///< vertices as in vertex.h; else the shader makes its own
   std::span<const vk::Format> color_formats = {};
   std::uint32_t samples = 1;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  ///< reversed depth
   bool writes_depth = true;
-  bool is_shadow = false;            ///< depth is clamped and biased
+  bool is_shadow = false;  ///< depth is clamped and biased
 };
 
 /// Viewport, scissor and cull mode are dynamic. Depth is D32.

@@ -71,11 +71,14 @@ void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std
     const GpuCharacter& last = characters_[chunk.first + chunk.count - 1];
     const std::uint64_t chunk_joints = last.first_joint + animation.clips[last.clip].joint_count;
     using Usage = vk::BufferUsageFlagBits;
-    chunk.characters = gpu::Buffer(device, chunk.count * sizeof(GpuCharacter), Usage::eStorageBuffer,
-                                   gpu::Buffer::Kind::kUpload, fmt::format("a buffer of {} people", chunk.count));
-    std::copy_n(characters_.begin() + chunk.first, chunk.count, chunk.characters.mapped<GpuCharacter>().begin());
-    chunk.palette = gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
-                                gpu::Buffer::Kind::kDevice, fmt::format("the poses of {} people", chunk.count));
+    chunk.characters =
+        gpu::Buffer(device, chunk.count * sizeof(GpuCharacter), Usage::eStorageBuffer,
+                    gpu::Buffer::Kind::kUpload, fmt::format("a buffer of {} people", chunk.count));
+    std::copy_n(characters_.begin() + chunk.first, chunk.count,
+                chunk.characters.mapped<GpuCharacter>().begin());
+    chunk.palette =
+        gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
+                    gpu::Buffer::Kind::kDevice, fmt::format("the poses of {} people", chunk.count));
     chunk.palette_view = chunk.palette.makeTexelView(device);
   }
 }
@@ -93,18 +96,17 @@ void CrowdState::createPipeline(gpu::Device& device) {
   }
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(std::uint32_t)};
-  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
-      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                    .pSetLayouts = &*set_layout_,
-                                                    .pushConstantRangeCount = 1,
-                                                    .pPushConstantRanges = &push}));
+  layout_ = ENSEMBLE_VK(
+      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
+                                                                             .pSetLayouts = &*set_layout_,
+                                                                             .pushConstantRangeCount = 1,
+                                                                             .pPushConstantRanges = &push}));
   const vk::raii::ShaderModule shader = gpu::makeShader(device, kPoseComp);
   pipeline_ = ENSEMBLE_VK(vk::raii::Pipeline(
       device.handle(), nullptr,
-      vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
-                                              .module = *shader,
-                                              .pName = "main"},
-                                    .layout = *layout_}));
+      vk::ComputePipelineCreateInfo{
+          .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
+          .layout = *layout_}));
 }
 
 void CrowdState::setTime(double seconds) {

@@ -16,8 +16,8 @@ namespace ensemble {
 /// People who share buffers, so that none grows beyond the limit.
 struct CrowdChunk {
   std::uint32_t first = 0, count = 0;  ///< numbers in the crowd
-  gpu::Buffer characters;  ///< GpuCharacter, mapped
-  gpu::Buffer palette;     ///< world_from_model * skinning matrix, three rows a joint
+  gpu::Buffer characters;              ///< GpuCharacter, mapped
+  gpu::Buffer palette;                 ///< world_from_model * skinning matrix, three rows a joint
   vk::raii::BufferView palette_view = nullptr;
 };
 

@@ -65,7 +65,8 @@ void readAovs(const ViewTargets& targets, const View& view, Picture& picture) {
     if (!view.aovs.has(aov)) values.clear();
     return view.aovs.has(aov);
   };
-  if (wanted(Aov::kCharacter, picture.character)) readChannel(readback(Aov::kCharacter), view, picture.character);
+  if (wanted(Aov::kCharacter, picture.character))
+    readChannel(readback(Aov::kCharacter), view, picture.character);
   if (wanted(Aov::kRegion, picture.region)) readChannel(readback(Aov::kRegion), view, picture.region);
   if (wanted(Aov::kFace, picture.face)) readChannel(readback(Aov::kFace), view, picture.face);
   if (wanted(Aov::kDepth, picture.depth)) readChannel(readback(Aov::kDepth), view, picture.depth);
@@ -93,10 +94,12 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
   pool_ = ENSEMBLE_VK(vk::raii::CommandPool(
       device.handle(), vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                  .queueFamilyIndex = device.queueFamily()}));
-  commands_ = std::move(ENSEMBLE_VK(vk::raii::CommandBuffers(
-      device.handle(), vk::CommandBufferAllocateInfo{.commandPool = *pool_,
-                                                     .level = vk::CommandBufferLevel::ePrimary,
-                                                     .commandBufferCount = 1})).front());
+  commands_ = std::move(ENSEMBLE_VK(vk::raii::CommandBuffers(device.handle(),
+                                                             vk::CommandBufferAllocateInfo{
+                                                                 .commandPool = *pool_,
+                                                                 .level = vk::CommandBufferLevel::ePrimary,
+                                                                 .commandBufferCount = 1}))
+                            .front());
   fence_ = ENSEMBLE_VK(vk::raii::Fence(device.handle(), vk::FenceCreateInfo{}));
 }
 
@@ -126,16 +129,17 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
 
 FrameLoop::Slot& FrameLoop::slotFor(const View& view, std::uint32_t shadow_size) {
   const TargetSize size{view.width, view.height, view.samples, shadow_size};
-  auto found = std::find_if(slots_.begin(), slots_.end(), [&](const auto& slot) { return slot->targets.size == size; });
+  auto found = std::find_if(slots_.begin(), slots_.end(),
+                            [&](const auto& slot) { return slot->targets.size == size; });
   if (found == slots_.end()) {
     if (slots_.size() == kMostSlots) slots_.erase(slots_.begin());
     color_pass_.prepare(view.samples);
-    auto slot = std::make_unique<Slot>(Slot{.targets = ViewTargets(device_, size, max_buffer_bytes_),
-                                            .view_buffer = gpu::Buffer(device_, sizeof(GpuView),
-                                                                       vk::BufferUsageFlagBits::eUniformBuffer,
-                                                                       gpu::Buffer::Kind::kUpload, "a view"),
-                                            .view_set = layout_.makeViewSets(device_, 1),
-                                            .post_set = {}});
+    auto slot = std::make_unique<Slot>(
+        Slot{.targets = ViewTargets(device_, size, max_buffer_bytes_),
+             .view_buffer = gpu::Buffer(device_, sizeof(GpuView), vk::BufferUsageFlagBits::eUniformBuffer,
+                                        gpu::Buffer::Kind::kUpload, "a view"),
+             .view_set = layout_.makeViewSets(device_, 1),
+             .post_set = {}});
     slot->post_set = post_pass_.makeSet(device_, slot->targets);
     gpu::writeBuffer(device_, slot->view_set[0], ENSEMBLE_BINDING_VIEW, slot->view_buffer,
                      vk::DescriptorType::eUniformBuffer);
@@ -166,7 +170,8 @@ void FrameLoop::record(const View& view, const Slot& slot, bool with_poses) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   counter_.reset(commands_);
   if (with_poses) state_.recordPoses(commands_);
-  CrowdDraw draw{.assets = &assets_, .layout = &layout_, .queues = &shadow_queues_, .view_set = slot.view_set[0]};
+  CrowdDraw draw{
+      .assets = &assets_, .layout = &layout_, .queues = &shadow_queues_, .view_set = slot.view_set[0]};
   shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow);
   draw.queues = &main_queues_;
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain);
@@ -187,8 +192,8 @@ void FrameLoop::submitAndWait() {
   const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *commands_};
   ENSEMBLE_VK(device_.queue().submit2(
       vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted}, *fence_));
-  const vk::Result result = ENSEMBLE_VK(
-      device_.handle().waitForFences(*fence_, true, std::numeric_limits<std::uint64_t>::max()));
+  const vk::Result result =
+      ENSEMBLE_VK(device_.handle().waitForFences(*fence_, true, std::numeric_limits<std::uint64_t>::max()));
   if (result != vk::Result::eSuccess) gpu::throwVulkanError(result, "waitForFences", __FILE__, __LINE__);
   ENSEMBLE_VK(device_.handle().resetFences(*fence_));
 }

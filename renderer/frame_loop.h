@@ -19,7 +19,8 @@ namespace ensemble {
 
 class FrameLoop {
  public:
-  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state, std::uint64_t max_buffer_bytes);
+  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
+            std::uint64_t max_buffer_bytes);
 
   /// Draws views at a time, one after the other. @throws SystemError if targets don't fit
   void render(std::span<const View> views, double seconds, std::span<Picture> pictures);

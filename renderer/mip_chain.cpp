@@ -10,9 +10,7 @@
 namespace ensemble {
 namespace {
 
-float linearFromSrgb(float c) {
-  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
+float linearFromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
 float srgbFromLinear(float c) {
   return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
@@ -21,7 +19,8 @@ float srgbFromLinear(float c) {
 const std::array<float, 256>& linearTable() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = linearFromSrgb(static_cast<float>(i) / 255.0f);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = linearFromSrgb(static_cast<float>(i) / 255.0f);
     return values;
   }();
   return table;
@@ -32,7 +31,8 @@ const std::vector<std::uint8_t>& srgbTable() {
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> values(65536);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = static_cast<std::uint8_t>(std::lround(srgbFromLinear(static_cast<float>(i) / 65535.0f) * 255.0f));
+      values[i] =
+          static_cast<std::uint8_t>(std::lround(srgbFromLinear(static_cast<float>(i) / 65535.0f) * 255.0f));
     }
     return values;
   }();

@@ -28,7 +28,8 @@ gpu::DescriptorSets PostPass::makeSet(const gpu::Device& device, const ViewTarge
   gpu::DescriptorSets sets(device, set_layout_, kBindings, 1);
   gpu::writeImage(device, sets[0], ENSEMBLE_BINDING_POST_LINEAR, targets.linear, &sampler_,
                   vk::ImageLayout::eShaderReadOnlyOptimal);
-  gpu::writeImage(device, sets[0], ENSEMBLE_BINDING_POST_SRGB, targets.srgb, nullptr, vk::ImageLayout::eGeneral);
+  gpu::writeImage(device, sets[0], ENSEMBLE_BINDING_POST_SRGB, targets.srgb, nullptr,
+                  vk::ImageLayout::eGeneral);
   return sets;
 }
 
@@ -44,7 +45,8 @@ void PostPass::record(const vk::raii::CommandBuffer& commands, const ViewTargets
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set, nullptr);
   constexpr std::uint32_t kGroup = ENSEMBLE_POST_GROUP;
-  commands.dispatch((targets.size.width + kGroup - 1) / kGroup, (targets.size.height + kGroup - 1) / kGroup, 1);
+  commands.dispatch((targets.size.width + kGroup - 1) / kGroup, (targets.size.height + kGroup - 1) / kGroup,
+                    1);
   gpu::recordBarrier(commands, targets.srgb,
                      {.from_stage = Stage::eComputeShader,
                       .to_stage = Stage::eTransfer,

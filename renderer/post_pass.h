@@ -12,7 +12,8 @@ class PostPass {
 
   /// A descriptor set for some targets.
   gpu::DescriptorSets makeSet(const gpu::Device& device, const ViewTargets& targets) const;
-  void record(const vk::raii::CommandBuffer& commands, const ViewTargets& targets, vk::DescriptorSet set) const;
+  void record(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
+              vk::DescriptorSet set) const;
 
  private:
   vk::raii::Sampler sampler_ = nullptr;

@@ -25,8 +25,8 @@ QueueBuffers::QueueBuffers(gpu::Device& device, const CrowdLayout& layout, const
     }
     chunk.entries = gpu::Buffer(device, entry_count * sizeof(std::uint32_t), Usage::eStorageBuffer, kind,
                                 fmt::format("the render queues of {} people", people.count));
-    chunk.draws = gpu::Buffer(device, item_count * sizeof(GpuDraw), Usage::eStorageBuffer, kind,
-                              "the table of draws");
+    chunk.draws =
+        gpu::Buffer(device, item_count * sizeof(GpuDraw), Usage::eStorageBuffer, kind, "the table of draws");
     chunk.commands = gpu::Buffer(device, item_count * sizeof(vk::DrawIndexedIndirectCommand),
                                  Usage::eIndirectBuffer, kind, "the indirect draws");
     chunk.queues.setShown(assets.shown(), item_count);
@@ -67,10 +67,10 @@ void QueueBuffers::buildDraws(Chunk& chunk, const CrowdAssets& assets) {
     if (length == 0) continue;
     const DrawItem& item = assets.items()[i];
     commands[draw_count] = vk::DrawIndexedIndirectCommand{.indexCount = item.index_count,
-                                                        .instanceCount = length,
-                                                        .firstIndex = item.first_index,
-                                                        .vertexOffset = item.vertex_offset,
-                                                        .firstInstance = chunk.queues.offsets()[i]};
+                                                          .instanceCount = length,
+                                                          .firstIndex = item.first_index,
+                                                          .vertexOffset = item.vertex_offset,
+                                                          .firstInstance = chunk.queues.offsets()[i]};
     draws[draw_count] = item.gpu;
     if (chunk.batches.empty() || chunk.batches.back().state != item.state) {
       chunk.batches.push_back({.state = item.state, .first_draw = draw_count, .draw_count = 0});

@@ -19,7 +19,8 @@ namespace {
 template <class Function>
 decltype(auto) atPublicFace(const Function& function) {
   const auto refuse = [](const char* what) {
-    throw SystemError({.file = {}, .where = "Vulkan", .what = what, .mend = "see whether `vulkaninfo` works"});
+    throw SystemError(
+        {.file = {}, .where = "Vulkan", .what = what, .mend = "see whether `vulkaninfo` works"});
   };
   try {
     return function();
@@ -87,8 +88,8 @@ struct Renderer::Impl {
     options.max_buffer_bytes =
         std::min<std::uint64_t>(options.max_buffer_bytes, device.limits().maxStorageBufferRange);
     // The palette is read as texels.
-    options.max_buffer_bytes =
-        std::min(options.max_buffer_bytes, sizeof(vec4) * std::uint64_t{device.limits().maxTexelBufferElements});
+    options.max_buffer_bytes = std::min(options.max_buffer_bytes,
+                                        sizeof(vec4) * std::uint64_t{device.limits().maxTexelBufferElements});
   }
 
   void load(const Scene& scene, std::span<const Wardrobe> wardrobes) {
@@ -98,15 +99,15 @@ struct Renderer::Impl {
     next.crowd = populateCrowd(scene, wardrobes);
     const WornLists worn = buildLists(next.crowd, wardrobes, scene.technique);
     const Animation animation = buildAnimation(wardrobes);
-    CrowdAssets::Input input{.wardrobes = {}, .combinations = worn.combinations,
+    CrowdAssets::Input input{.wardrobes = {},
+                             .combinations = worn.combinations,
                              .limits = {.max_buffer_bytes = options.max_buffer_bytes}};
     for (std::uint32_t w = 0; w < wardrobes.size(); ++w) {
-      input.wardrobes.push_back(
-          {.lists = &worn.lists[w],
-           .file = wardrobes[w].folder.string(),
-           .fixed_joint = animation.joint_count[w] - 1,
-           .region_count = static_cast<std::uint32_t>(wardrobes[w].body.regions.size()),
-           .skin = meanSkin(wardrobes[w])});
+      input.wardrobes.push_back({.lists = &worn.lists[w],
+                                 .file = wardrobes[w].folder.string(),
+                                 .fixed_joint = animation.joint_count[w] - 1,
+                                 .region_count = static_cast<std::uint32_t>(wardrobes[w].body.regions.size()),
+                                 .skin = meanSkin(wardrobes[w])});
       for (const std::string& name : worn.lists[w].garment_names) {
         next.numbers.garments.push_back(name);
         next.numbers.garment_wardrobes.push_back(w);

@@ -19,15 +19,15 @@
 namespace ensemble {
 
 struct RendererOptions {
-  bool validate = false;                           ///< collect what the validation layer says
-  std::uint64_t memory_limit = 0;                  ///< bytes on the device; 0: what it has
-  std::uint64_t max_buffer_bytes = 128ull << 20;   ///< no buffer of a crowd grows beyond; more are made
+  bool validate = false;                          ///< collect what the validation layer says
+  std::uint64_t memory_limit = 0;                 ///< bytes on the device; 0: what it has
+  std::uint64_t max_buffer_bytes = 128ull << 20;  ///< no buffer of a crowd grows beyond; more are made
 };
 
 /// How AOVs number garments. Regions of a template are 1, 2, ...
 struct AovNumbers {
-  std::uint32_t first_garment = 1;            ///< number of the first garment
-  std::vector<std::string> garments;          ///< names, the wardrobes' one after the other
+  std::uint32_t first_garment = 1;               ///< number of the first garment
+  std::vector<std::string> garments;             ///< names, the wardrobes' one after the other
   std::vector<std::uint32_t> garment_wardrobes;  ///< per garment: index into Scene::wardrobes
 };
 

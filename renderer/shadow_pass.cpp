@@ -7,7 +7,9 @@
 namespace ensemble {
 
 ShaderVariant ShadowPass::variantFor(const DrawState& state) {
-  return {.textured = state.textured && state.cut_out, .cut_out = state.cut_out, .hides_faces = state.hides_faces};
+  return {.textured = state.textured && state.cut_out,
+          .cut_out = state.cut_out,
+          .hides_faces = state.hides_faces};
 }
 
 ShadowPass::ShadowPass(const gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets) {
@@ -27,7 +29,8 @@ ShadowPass::ShadowPass(const gpu::Device& device, const CrowdLayout& layout, con
 }
 
 void ShadowPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
-                        const ViewTargets& targets, VertexCounter& counter, std::uint32_t counted_pass) const {
+                        const ViewTargets& targets, VertexCounter& counter,
+                        std::uint32_t counted_pass) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   gpu::recordBarrier(commands, targets.shadow_map,
@@ -41,11 +44,13 @@ void ShadowPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw
                                           .storeOp = vk::AttachmentStoreOp::eStore,
                                           .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
   const std::uint32_t size = targets.size.shadow_size;
-  commands.beginRendering({.renderArea = {.extent = {size, size}}, .layerCount = 1, .pDepthAttachment = &depth});
+  commands.beginRendering(
+      {.renderArea = {.extent = {size, size}}, .layerCount = 1, .pDepthAttachment = &depth});
   recordFullViewport(commands, size, size);
-  recordCrowd(commands, draw, &counter, counted_pass, [&](const DrawState& state) -> const vk::raii::Pipeline& {
-    return pipelines_[variantIndex(variantFor(state))];
-  });
+  recordCrowd(commands, draw, &counter, counted_pass,
+              [&](const DrawState& state) -> const vk::raii::Pipeline& {
+                return pipelines_[variantIndex(variantFor(state))];
+              });
   commands.endRendering();
   gpu::recordBarrier(commands, targets.shadow_map,
                      {.from_stage = Stage::eLateFragmentTests,

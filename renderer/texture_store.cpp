@@ -16,7 +16,8 @@ constexpr auto kFormat = vk::Format::eR8G8B8A8Srgb;
 std::uint32_t sizeClassOf(const RawImage& image) {
   const std::uint32_t side = std::max(image.width, image.height);
   std::uint32_t size_class = 0;
-  while (size_class + 1 < TextureStore::kSides.size() && TextureStore::kSides[size_class] < side) ++size_class;
+  while (size_class + 1 < TextureStore::kSides.size() && TextureStore::kSides[size_class] < side)
+    ++size_class;
   return size_class;
 }
 
@@ -45,15 +46,16 @@ TextureStore::TextureStore(gpu::Device& device, const std::vector<Source>& sourc
     // An array without textures is one texel, so that it can be bound.
     const bool used = layer_counts[i] > 0;
     const std::uint32_t side = used ? kSides[i] : 1;
-    arrays_[i] = gpu::Image(device,
-                            {.width = side,
-                             .height = side,
-                             .layers = std::max(layer_counts[i], 1u),
-                             .mip_levels = static_cast<std::uint32_t>(std::bit_width(side)),
-                             .format = kFormat,
-                             .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
-                             .array_view = true},
-                            fmt::format("the array of {} textures of {} x {} texels", layer_counts[i], side, side));
+    arrays_[i] =
+        gpu::Image(device,
+                   {.width = side,
+                    .height = side,
+                    .layers = std::max(layer_counts[i], 1u),
+                    .mip_levels = static_cast<std::uint32_t>(std::bit_width(side)),
+                    .format = kFormat,
+                    .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+                    .array_view = true},
+                   fmt::format("the array of {} textures of {} x {} texels", layer_counts[i], side, side));
     if (!used) {
       const std::array<std::byte, 4> white = {std::byte{255}, std::byte{255}, std::byte{255}, std::byte{255}};
       gpu::uploadImage(device, arrays_[i], white, {});

@@ -20,7 +20,7 @@ namespace ensemble {
 struct StoredTexture {
   std::uint32_t size_class = 0;  ///< which array
   std::uint32_t layer = 0;
-  Vec3 mean{1.0f};               ///< mean colour, linear
+  Vec3 mean{1.0f};  ///< mean colour, linear
 };
 
 class TextureStore {

@@ -36,10 +36,18 @@ struct KindColors {
 const std::array<KindColors, 4>& kinds() {
   static const std::array<KindColors, 4> all = [] {
     std::array<KindColors, 4> table = {{
-        {TintKind::kSkin, kSkin, {.strength = 1.0f, .textured_strength = 1.0f, .spread = 0.04f, .sheen = 0.05f}},
-        {TintKind::kHair, kHair, {.strength = 1.0f, .textured_strength = 0.8f, .spread = 0.12f, .sheen = 0.06f}},
-        {TintKind::kShoes, kShoes, {.strength = 1.0f, .textured_strength = 0.5f, .spread = 0.10f, .sheen = 0.03f}},
-        {TintKind::kCloth, kCloth, {.strength = 1.0f, .textured_strength = 0.6f, .spread = 0.14f, .sheen = 0.05f}},
+        {TintKind::kSkin,
+         kSkin,
+         {.strength = 1.0f, .textured_strength = 1.0f, .spread = 0.04f, .sheen = 0.05f}},
+        {TintKind::kHair,
+         kHair,
+         {.strength = 1.0f, .textured_strength = 0.8f, .spread = 0.12f, .sheen = 0.06f}},
+        {TintKind::kShoes,
+         kShoes,
+         {.strength = 1.0f, .textured_strength = 0.5f, .spread = 0.10f, .sheen = 0.03f}},
+        {TintKind::kCloth,
+         kCloth,
+         {.strength = 1.0f, .textured_strength = 0.6f, .spread = 0.14f, .sheen = 0.05f}},
     }};
     std::uint32_t first = 0;
     for (KindColors& entry : table) {
@@ -93,7 +101,8 @@ const std::vector<Vec4>& tintTable() {
     std::vector<Vec4> colors;
     for (const KindColors& entry : kinds()) {
       for (const Hex hex : entry.colors) {
-        colors.emplace_back(linearByte(hex >> 16), linearByte(hex >> 8 & 0xffu), linearByte(hex & 0xffu), 1.0f);
+        colors.emplace_back(linearByte(hex >> 16), linearByte(hex >> 8 & 0xffu), linearByte(hex & 0xffu),
+                            1.0f);
       }
     }
     return colors;

@@ -19,9 +19,9 @@ TintKind tintKindOf(std::string_view material_name, bool is_body);
 /// The colours of a kind, in `tintTable()`.
 struct TintRange {
   std::uint32_t first = 0, count = 0;
-  float strength = 0.0f;         ///< how far a tint replaces a plain material's colour, 0 .. 1
+  float strength = 0.0f;           ///< how far a tint replaces a plain material's colour, 0 .. 1
   float textured_strength = 0.0f;  ///< the same under a texture, which has colours of its own
-  float spread = 0.0f;           ///< brightness varies by +- this part
+  float spread = 0.0f;             ///< brightness varies by +- this part
   float sheen = 0.0f;
 };
 TintRange tintRange(TintKind kind);

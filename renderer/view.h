@@ -31,11 +31,11 @@ class AovSet {
 struct View {
   SceneCamera camera;
   SceneLight light;
-  bool ground = true;               ///< not drawn on a transparent background
+  bool ground = true;  ///< not drawn on a transparent background
   std::uint32_t width = 1280, height = 720;
-  std::uint32_t samples = 4;        ///< 1 or 4
+  std::uint32_t samples = 4;  ///< 1 or 4
   BackgroundKind background = BackgroundKind::kSky;
-  Vec3 background_color{0.0f};      ///< sRGB, for BackgroundKind::kColor
+  Vec3 background_color{0.0f};  ///< sRGB, for BackgroundKind::kColor
   AovSet aovs;
 
   bool drawsGround() const { return ground && background != BackgroundKind::kTransparent; }

@@ -7,11 +7,11 @@
 namespace ensemble {
 namespace {
 
-constexpr float kNearestRange = 50.0f;    // metres: people this near always have shadows
+constexpr float kNearestRange = 50.0f;  // metres: people this near always have shadows
 constexpr float kRangeFactor = 3.0f;
-constexpr float kLongestShadow = 12.0f;   // metres that a shadow on the ground may reach to matter
-constexpr float kFadeDistance = 260.0f;   // metres
-constexpr float kSteps = 4.0f;            // sizes of the shadow map between one and its double
+constexpr float kLongestShadow = 12.0f;  // metres that a shadow on the ground may reach to matter
+constexpr float kFadeDistance = 260.0f;  // metres
+constexpr float kSteps = 4.0f;           // sizes of the shadow map between one and its double
 
 // Linear light. White cloth in the sun comes out just below white.
 constexpr Vec3 kSun{1.38f, 1.26f, 1.08f};
@@ -111,12 +111,14 @@ bool Frustum::touches(const Sphere& sphere) const {
 
 Frustum frustumOf(const View& view) {
   const Mat4 rows = glm::transpose(clipFromWorld(view));
-  Frustum frustum{{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]}};
+  Frustum frustum{
+      {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]}};
   for (Vec4& plane : frustum.planes) plane /= glm::length(Vec3(plane));
   return frustum;
 }
 
-void findVisible(const Frustum& frustum, std::span<const Sphere> bounds, std::vector<std::uint32_t>& visible) {
+void findVisible(const Frustum& frustum, std::span<const Sphere> bounds,
+                 std::vector<std::uint32_t>& visible) {
   visible.clear();
   for (std::uint32_t i = 0; i < bounds.size(); ++i) {
     if (frustum.touches(bounds[i])) visible.push_back(i);
@@ -170,8 +172,9 @@ GpuView makeGpuView(const View& view, const ShadowFit& fit) {
   const CameraFrame frame = cameraFrame(view.camera);
   const float tan_y = std::tan(0.5f * view.camera.fov_y);
   const float pixel = 2.0f * tan_y / static_cast<float>(view.height);  // on a plane one metre away
-  const Vec3 corner = frame.forward + frame.up * tan_y -
-                      frame.right * (tan_y * static_cast<float>(view.width) / static_cast<float>(view.height));
+  const Vec3 corner =
+      frame.forward + frame.up * tan_y -
+      frame.right * (tan_y * static_cast<float>(view.width) / static_cast<float>(view.height));
   const bool is_sky = view.background == BackgroundKind::kSky;
   const bool is_clear = view.background == BackgroundKind::kTransparent;
   const Vec3 horizon = is_sky ? kHorizon : linearFromSrgb(view.background_color);

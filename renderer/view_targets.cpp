@@ -30,9 +30,10 @@ void Readback::record(const vk::raii::CommandBuffer& commands, const gpu::Image&
     const std::uint32_t first = static_cast<std::uint32_t>(band) * rows_per_band_;
     commands.copyImageToBuffer(
         image.handle(), vk::ImageLayout::eTransferSrcOptimal, bands_[band].handle(),
-        vk::BufferImageCopy{.imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
-                            .imageOffset = {0, static_cast<std::int32_t>(first), 0},
-                            .imageExtent = {width_, std::min(rows_per_band_, height_ - first), 1}});
+        vk::BufferImageCopy{
+            .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1},
+            .imageOffset = {0, static_cast<std::int32_t>(first), 0},
+            .imageExtent = {width_, std::min(rows_per_band_, height_ - first), 1}});
   }
   gpu::recordBarrier(commands, vk::PipelineStageFlagBits2::eTransfer, vk::AccessFlagBits2::eTransferWrite,
                      vk::PipelineStageFlagBits2::eHost, vk::AccessFlagBits2::eHostRead);
@@ -44,12 +45,17 @@ ViewTargets::ViewTargets(gpu::Device& device, const TargetSize& target_size, std
   const std::string what = fmt::format("a picture of {} x {} pixels", size.width, size.height);
   const auto image = [&](vk::Format format, vk::ImageUsageFlags usage, std::uint32_t samples_of_image) {
     return gpu::Image(device,
-                      {.width = size.width, .height = size.height, .samples = samples_of_image, .format = format,
+                      {.width = size.width,
+                       .height = size.height,
+                       .samples = samples_of_image,
+                       .format = format,
                        .usage = usage},
                       what);
   };
   shadow_map = gpu::Image(device,
-                          {.width = size.shadow_size, .height = size.shadow_size, .format = kDepthFormat,
+                          {.width = size.shadow_size,
+                           .height = size.shadow_size,
+                           .format = kDepthFormat,
                            .usage = Usage::eDepthStencilAttachment | Usage::eSampled},
                           "the shadow map");
   if (size.samples > 1) samples = image(kColorFormat, Usage::eColorAttachment, size.samples);
@@ -62,7 +68,9 @@ ViewTargets::ViewTargets(gpu::Device& device, const TargetSize& target_size, std
 void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
   if (aov_depth) return;
   using Usage = vk::ImageUsageFlagBits;
-  gpu::ImageOptions options{.width = size.width, .height = size.height, .format = kDepthFormat,
+  gpu::ImageOptions options{.width = size.width,
+                            .height = size.height,
+                            .format = kDepthFormat,
                             .usage = Usage::eDepthStencilAttachment};
   const std::string what = fmt::format("AOVs of {} x {} pixels", size.width, size.height);
   for (std::size_t i = 0; i < aovs.size(); ++i) {

@@ -10,7 +10,7 @@
 
 namespace ensemble {
 
-inline constexpr auto kColorFormat = vk::Format::eR32G32B32A32Sfloat;
+inline constexpr auto kColorFormat = vk::Format::eR16G16B16A16Sfloat;
 inline constexpr auto kDepthFormat = vk::Format::eD32Sfloat;
 /// In the order of Aov and ENSEMBLE_AOV_...
 inline constexpr std::array<vk::Format, 5> kAovFormats = {vk::Format::eR32Uint, vk::Format::eR32Uint,
@@ -59,10 +59,10 @@ struct ViewTargets {
 
   TargetSize size;
   gpu::Image shadow_map;
-  gpu::Image samples;   ///< the colour pass's samples; none with one sample
-  gpu::Image linear;    ///< resolved, linear, premultiplied
+  gpu::Image samples;  ///< the colour pass's samples; none with one sample
+  gpu::Image linear;   ///< resolved, linear, premultiplied
   gpu::Image depth;
-  gpu::Image srgb;      ///< what is read back
+  gpu::Image srgb;  ///< what is read back
   Readback readback;
 
   gpu::Image aov_depth;

@@ -31,8 +31,6 @@ HIDDEN = {
     r"(CLI/)": ["cli", "tests/cli"],
 }
 
-# Headers of the renderer that say nothing about Vulkan; others are for the renderer alone.
-RENDERER_FACE = re.compile(r"renderer/(?!vk/)[a-z_]+\.h$")
 GENERATED = ("embedded/", "spirv/")  # made by the build, found from its folder
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 
@@ -63,6 +61,16 @@ def readIncludes(root):
     return includes
 
 
+def bringsVulkan(path, includes, seen=None):
+    """Whether a header includes Vulkan, itself or through others of ours."""
+    seen = seen if seen is not None else set()
+    if path in seen:
+        return False
+    seen.add(path)
+    return any(bringsVulkan(ours, includes, seen) if ours else foreign.startswith("vulkan/")
+               for _, ours, foreign in includes.get(path, []))
+
+
 def checkOurs(path, line, target, includes):
     """What is wrong with including our own header `target`, or None."""
     if target.startswith(GENERATED):
@@ -73,8 +81,8 @@ def checkOurs(path, line, target, includes):
     # What C++ and GLSL share stands below everything, but for the vectors it is made of.
     if layerOf(target) not in MAY_INCLUDE.get(layer, {layer}) and (layer, target) != ("shaders/shared", "core/math.h"):
         return f"{path}:{line}: {layer} may not include {target}"
-    if layerOf(target) == "renderer" and layer not in ("renderer", "tests") and not RENDERER_FACE.match(target):
-        return f"{path}:{line}: {target} is the renderer's own; include what renderer.h offers"
+    if layer not in ("renderer", "tests") and bringsVulkan(target, includes):
+        return f"{path}:{line}: {target} brings Vulkan along; include what renderer.h offers"
     return None
 
 

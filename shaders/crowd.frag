@@ -20,8 +20,9 @@ void main() {
   vec3 normal = normalize(gl_FrontFacing ? normal_u.xyz : -normal_u.xyz);
   vec3 from_camera = world_v.xyz - view.camera.xyz;
   float facing = clamp(-dot(normal, normalize(from_camera)), 0.0, 1.0);
-  float sun = max(dot(normal, view.to_sun.xyz), 0.0) * sunShare(world_v.xyz, normal);
+  float sun = max(dot(normal, view.to_sun.xyz), 0.0) * sunShare3(world_v.xyz, normal);
   vec3 light = view.sun_color.rgb * sun + ambient(normal);
-  vec3 sheen = material.sheen * pow(1.0 - facing, 4.0) * (ambient(normal) + 0.5 * view.sun_color.rgb * sun);
+  float edge = (1.0 - facing) * (1.0 - facing);
+  vec3 sheen = material.sheen * edge * edge * light;
   color = vec4(faded(albedo * light + sheen, from_camera), 1.0);
 }

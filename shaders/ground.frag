@@ -47,6 +47,6 @@ void main() {
   vec3 albedo = vec3(0.47, 0.45, 0.42) * (1.0 + 0.10 * detail * slabBrightness(slab));
   albedo *= 1.0 - 0.45 * joint_share;
   const vec3 kUp = vec3(0.0, 1.0, 0.0);
-  float sun = max(view.to_sun.y, 0.0) * sunShare(vec3(world.x, 0.0, world.y), kUp);
+  float sun = max(view.to_sun.y, 0.0) * sunShare5(vec3(world.x, 0.0, world.y), kUp);
   color = vec4(faded(albedo * (view.sun_color.rgb * sun + ambient(kUp)), from_camera), 1.0);
 }

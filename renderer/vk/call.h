@@ -35,6 +35,5 @@ decltype(auto) located(Function&& function, const char* call, const char* file, 
 }  // namespace ensemble::gpu
 
 /// ENSEMBLE_VK(expression): its value, or a VulkanError that names it and this line.
-#define ENSEMBLE_VK(...)                                                                             \
-  ::ensemble::gpu::located([&]() -> decltype(auto) { return __VA_ARGS__; }, #__VA_ARGS__, __FILE__, \
-                           __LINE__)
+#define ENSEMBLE_VK(...) \
+  ::ensemble::gpu::located([&]() -> decltype(auto) { return __VA_ARGS__; }, #__VA_ARGS__, __FILE__, __LINE__)

@@ -13,8 +13,9 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
                         .stageFlags = stages});
   }
   return ENSEMBLE_VK(vk::raii::DescriptorSetLayout(
-      device.handle(), vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
-                                                         .pBindings = bindings.data()}));
+      device.handle(),
+      vk::DescriptorSetLayoutCreateInfo{.bindingCount = static_cast<std::uint32_t>(bindings.size()),
+                                        .pBindings = bindings.data()}));
 }
 
 DescriptorSets::DescriptorSets(const Device& device, const vk::raii::DescriptorSetLayout& layout,
@@ -23,10 +24,11 @@ DescriptorSets::DescriptorSets(const Device& device, const vk::raii::DescriptorS
   std::vector<vk::DescriptorPoolSize> sizes;
   for (const vk::DescriptorType type : types) sizes.push_back({.type = type, .descriptorCount = count});
   pool_ = ENSEMBLE_VK(vk::raii::DescriptorPool(
-      device.handle(), vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                    .maxSets = count,
-                                                    .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
-                                                    .pPoolSizes = sizes.data()}));
+      device.handle(),
+      vk::DescriptorPoolCreateInfo{.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                   .maxSets = count,
+                                   .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                   .pPoolSizes = sizes.data()}));
   const std::vector<vk::DescriptorSetLayout> layouts(count, *layout);
   sets_ = ENSEMBLE_VK(vk::raii::DescriptorSets(
       device.handle(),

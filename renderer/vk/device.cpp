@@ -43,9 +43,8 @@ std::optional<std::uint32_t> graphicsQueueFamily(const vk::raii::PhysicalDevice&
 std::string missingFrom(const vk::raii::PhysicalDevice& device) {
   if (device.getProperties().apiVersion < kVulkanVersion) return "Vulkan 1.3";
   if (!graphicsQueueFamily(device)) return "a queue for graphics and compute";
-  const auto chain =
-      device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
-                          vk::PhysicalDeviceVulkan13Features>();
+  const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan11Features,
+                                         vk::PhysicalDeviceVulkan13Features>();
   const auto& core = chain.get<vk::PhysicalDeviceFeatures2>().features;
   const auto& v11 = chain.get<vk::PhysicalDeviceVulkan11Features>();
   const auto& v13 = chain.get<vk::PhysicalDeviceVulkan13Features>();
@@ -62,11 +61,16 @@ std::string missingFrom(const vk::raii::PhysicalDevice& device) {
 
 int rank(vk::PhysicalDeviceType type) {
   switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
-    case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
-    case vk::PhysicalDeviceType::eVirtualGpu: return 2;
-    case vk::PhysicalDeviceType::eOther: return 3;
-    default: return 4;
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return 0;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return 1;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return 2;
+    case vk::PhysicalDeviceType::eOther:
+      return 3;
+    default:
+      return 4;
   }
 }
 
@@ -77,13 +81,13 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate)
   const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = enabled.size(),
                                            .pEnabledValidationFeatures = enabled.data()};
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-  return ENSEMBLE_VK(vk::raii::Instance(
-      context, vk::InstanceCreateInfo{.pNext = validate ? &features : nullptr,
-                                      .pApplicationInfo = &application,
-                                      .enabledLayerCount = validate ? 1u : 0u,
-                                      .ppEnabledLayerNames = &kValidationLayer,
-                                      .enabledExtensionCount = validate ? 1u : 0u,
-                                      .ppEnabledExtensionNames = &extension}));
+  return ENSEMBLE_VK(
+      vk::raii::Instance(context, vk::InstanceCreateInfo{.pNext = validate ? &features : nullptr,
+                                                         .pApplicationInfo = &application,
+                                                         .enabledLayerCount = validate ? 1u : 0u,
+                                                         .ppEnabledLayerNames = &kValidationLayer,
+                                                         .enabledExtensionCount = validate ? 1u : 0u,
+                                                         .ppEnabledExtensionNames = &extension}));
 }
 
 /// The device to use, and in `lacks` why others were passed over.
@@ -95,8 +99,8 @@ std::optional<vk::raii::PhysicalDevice> bestDevice(const vk::raii::Instance& ins
   for (vk::raii::PhysicalDevice& device : devices) {
     const std::string missing = missingFrom(device);
     if (missing.empty()) return std::move(device);
-    lacks += fmt::format("{}{} lacks {}", lacks.empty() ? "" : ", ",
-                         device.getProperties().deviceName.data(), missing);
+    lacks += fmt::format("{}{} lacks {}", lacks.empty() ? "" : ", ", device.getProperties().deviceName.data(),
+                         missing);
   }
   return std::nullopt;
 }
@@ -189,7 +193,8 @@ void Device::createDevice() {
                                          .depthClamp = true,
                                          .samplerAnisotropy = offered.samplerAnisotropy,
                                          .pipelineStatisticsQuery = offered.pipelineStatisticsQuery};
-  vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
+  vk::PhysicalDeviceVulkan13Features v13{
+      .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
   vk::PhysicalDeviceVulkan11Features v11{.pNext = &v13, .shaderDrawParameters = true};
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue_info{
@@ -199,9 +204,9 @@ void Device::createDevice() {
                                                                          .pQueueCreateInfos = &queue_info,
                                                                          .pEnabledFeatures = &features_}));
   queue_ = device_.getQueue(queue_family_, 0);
-  pool_ = ENSEMBLE_VK(
-      vk::raii::CommandPool(device_, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eTransient,
-                                                               .queueFamilyIndex = queue_family_}));
+  pool_ = ENSEMBLE_VK(vk::raii::CommandPool(
+      device_, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eTransient,
+                                         .queueFamilyIndex = queue_family_}));
 }
 
 std::uint64_t Device::bytesLeft() const {
@@ -215,8 +220,8 @@ std::uint64_t Device::bytesLeft() const {
 }
 
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& wanted,
-                                        vk::MemoryPropertyFlags required,
-                                        vk::MemoryPropertyFlags preferred, const std::string& what) {
+                                        vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred,
+                                        const std::string& what) {
   const auto refuse = [&] {
     throw SystemError({.file = {},
                        .where = "Vulkan device " + name(),
@@ -249,15 +254,16 @@ vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& wanted,
 
 void Device::runOnce(const std::function<void(const vk::raii::CommandBuffer&)>& record) {
   vk::raii::CommandBuffers buffers = ENSEMBLE_VK(vk::raii::CommandBuffers(
-      device_, vk::CommandBufferAllocateInfo{
-                   .commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1}));
+      device_,
+      vk::CommandBufferAllocateInfo{
+          .commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1}));
   const vk::raii::CommandBuffer& commands = buffers.front();
   ENSEMBLE_VK(commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   record(commands);
   ENSEMBLE_VK(commands.end());
   const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *commands};
-  ENSEMBLE_VK(queue_.submit2(
-      vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted}));
+  ENSEMBLE_VK(
+      queue_.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &submitted}));
   ENSEMBLE_VK(queue_.waitIdle());
 }
 

@@ -15,7 +15,8 @@ Buffer::Buffer(Device& device, std::uint64_t bytes, vk::BufferUsageFlags usage, 
                const std::string& what)
     : size_(std::max<std::uint64_t>(bytes, 16)) {
   using Property = vk::MemoryPropertyFlagBits;
-  buffer_ = ENSEMBLE_VK(vk::raii::Buffer(device.handle(), vk::BufferCreateInfo{.size = size_, .usage = usage}));
+  buffer_ =
+      ENSEMBLE_VK(vk::raii::Buffer(device.handle(), vk::BufferCreateInfo{.size = size_, .usage = usage}));
   const vk::MemoryRequirements wanted = buffer_.getMemoryRequirements();
   constexpr auto host = Property::eHostVisible | Property::eHostCoherent;
   vk::MemoryPropertyFlags required = kind == Kind::kDevice ? Property::eDeviceLocal : host;
@@ -29,10 +30,11 @@ Buffer::Buffer(Device& device, std::uint64_t bytes, vk::BufferUsageFlags usage, 
 }
 
 vk::raii::BufferView Buffer::makeTexelView(const Device& device) const {
-  return ENSEMBLE_VK(vk::raii::BufferView(
-      device.handle(),
-      vk::BufferViewCreateInfo{
-          .buffer = *buffer_, .format = vk::Format::eR32G32B32A32Sfloat, .offset = 0, .range = VK_WHOLE_SIZE}));
+  return ENSEMBLE_VK(vk::raii::BufferView(device.handle(),
+                                          vk::BufferViewCreateInfo{.buffer = *buffer_,
+                                                                   .format = vk::Format::eR32G32B32A32Sfloat,
+                                                                   .offset = 0,
+                                                                   .range = VK_WHOLE_SIZE}));
 }
 
 Image::Image(Device& device, const ImageOptions& options, const std::string& what) : options_(options) {
@@ -46,8 +48,7 @@ Image::Image(Device& device, const ImageOptions& options, const std::string& wha
                                            .tiling = vk::ImageTiling::eOptimal,
                                            .usage = options.usage}));
   const vk::MemoryRequirements wanted = image_.getMemoryRequirements();
-  vk::raii::DeviceMemory memory =
-      device.allocate(wanted, vk::MemoryPropertyFlagBits::eDeviceLocal, {}, what);
+  vk::raii::DeviceMemory memory = device.allocate(wanted, vk::MemoryPropertyFlagBits::eDeviceLocal, {}, what);
   ENSEMBLE_VK(image_.bindMemory(*memory, 0));
   memory_ = Memory(device, std::move(memory), wanted.size);
   const bool array = options.array_view || options.layers > 1;
@@ -60,7 +61,8 @@ Image::Image(Device& device, const ImageOptions& options, const std::string& wha
 }
 
 vk::ImageSubresourceRange Image::range() const {
-  return {.aspectMask = isDepth(options_.format) ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor,
+  return {.aspectMask =
+              isDepth(options_.format) ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor,
           .baseMipLevel = 0,
           .levelCount = options_.mip_levels,
           .baseArrayLayer = 0,
@@ -69,7 +71,8 @@ vk::ImageSubresourceRange Image::range() const {
 
 Buffer uploadBuffer(Device& device, std::span<const std::byte> bytes, vk::BufferUsageFlags usage,
                     const std::string& what) {
-  Buffer buffer(device, bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst, Buffer::Kind::kDevice, what);
+  Buffer buffer(device, bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst, Buffer::Kind::kDevice,
+                what);
   const Buffer staging(device, std::min<std::uint64_t>(bytes.size(), kStagingBytes),
                        vk::BufferUsageFlagBits::eTransferSrc, Buffer::Kind::kUpload, "a staging buffer");
   for (std::size_t done = 0; done < bytes.size();) {
@@ -91,7 +94,8 @@ void uploadImage(Device& device, const Image& image, std::span<const std::byte> 
   const std::uint32_t height = std::max(image.options().height >> part.mip_level, 1u);
   const std::size_t row_bytes = texels.size() / height;
   ENSEMBLE_CHECK(row_bytes * height == texels.size());
-  const auto rows_at_once = static_cast<std::uint32_t>(std::clamp<std::size_t>(kStagingBytes / row_bytes, 1, height));
+  const auto rows_at_once =
+      static_cast<std::uint32_t>(std::clamp<std::size_t>(kStagingBytes / row_bytes, 1, height));
   const Buffer staging(device, rows_at_once * row_bytes, vk::BufferUsageFlagBits::eTransferSrc,
                        Buffer::Kind::kUpload, "a staging buffer");
   constexpr auto layout = vk::ImageLayout::eTransferDstOptimal;

@@ -75,8 +75,8 @@ struct GpuCharacter {
   float phase;               ///< part of the clip that has run at this frame, 0 .. 1
   uint combination;          ///< into the table of hidden faces
   uint tint_seed;
-  uint first_joint;          ///< its first matrix in the palette
-  uint number;               ///< in the whole crowd
+  uint first_joint;  ///< its first matrix in the palette
+  uint number;       ///< in the whole crowd
   uint unused_0;
   uint unused_1;
 };
@@ -92,17 +92,17 @@ struct GpuClip {
 /// One instanced draw: what gl_DrawID stands for.
 struct GpuDraw {
   uint material;
-  uint region;      ///< AOV number, 1 and up
-  uint first_face;  ///< into the source faces of its mesh chunk
-  uint face_offset; ///< added to what stands there
+  uint region;       ///< AOV number, 1 and up
+  uint first_face;   ///< into the source faces of its mesh chunk
+  uint face_offset;  ///< added to what stands there
 };
 
 struct GpuMaterial {
-  vec4 base_color;    ///< linear
-  vec4 tint;          ///< rgb: 1 / the colour that a tint replaces; a: how far it does, 0 .. 1
-  uint tint_first;    ///< its tints in the table of tints: first, count
+  vec4 base_color;  ///< linear
+  vec4 tint;        ///< rgb: 1 / the colour that a tint replaces; a: how far it does, 0 .. 1
+  uint tint_first;  ///< its tints in the table of tints: first, count
   uint tint_count;
-  uint tint_key;      ///< hashed with a person's tint seed
+  uint tint_key;  ///< hashed with a person's tint seed
   uint texture_layer;
   float alpha_cutoff;
   float tint_spread;  ///< brightness varies by +- this part
@@ -113,17 +113,17 @@ struct GpuMaterial {
 /// One view's constants, std140.
 struct GpuView {
   mat4 clip_from_world;
-  mat4 shadow_from_world;     ///< clip space of the shadow map
-  vec4 camera;                ///< xyz: position, metres; w: near plane
-  vec4 ray_origin;            ///< xyz: view ray of pixel (0, 0)'s corner; w: metres to fully faded
-  vec4 ray_x;                 ///< what a pixel to the right adds to it; w: 1 with shadows
-  vec4 ray_y;                 ///< what a pixel down adds to it; w: side of a shadow texel, metres
-  vec4 to_sun;                ///< unit; w: size of the shadow map, texels
-  vec4 sun_color;             ///< linear; w: 1 draws the sky's gradient, 0 its horizon everywhere
-  vec4 ambient_up;            ///< linear light from above; w: alpha of the background
-  vec4 ambient_down;          ///< linear light from below
-  vec4 horizon;               ///< linear; distance fades into it
-  vec4 zenith;                ///< linear
+  mat4 shadow_from_world;  ///< clip space of the shadow map
+  vec4 camera;             ///< xyz: position, metres; w: near plane
+  vec4 ray_origin;         ///< xyz: view ray of pixel (0, 0)'s corner; w: metres to fully faded
+  vec4 ray_x;              ///< what a pixel to the right adds to it; w: 1 with shadows
+  vec4 ray_y;              ///< what a pixel down adds to it; w: side of a shadow texel, metres
+  vec4 to_sun;             ///< unit; w: size of the shadow map, texels
+  vec4 sun_color;          ///< linear; w: 1 draws the sky's gradient, 0 its horizon everywhere
+  vec4 ambient_up;         ///< linear light from above; w: alpha of the background
+  vec4 ambient_down;       ///< linear light from below
+  vec4 horizon;            ///< linear; distance fades into it
+  vec4 zenith;             ///< linear
 };
 
 #ifdef __cplusplus

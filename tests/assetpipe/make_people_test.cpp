@@ -42,7 +42,9 @@ INSTANTIATE_TEST_SUITE_P(People, EachSex, ::testing::Values(Sex::kFemale, Sex::k
                          [](const auto& sex) { return sex.param == Sex::kFemale ? "Woman" : "Man"; });
 
 struct PositionOrder {
-  bool operator()(const Vec3& a, const Vec3& b) const { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+  bool operator()(const Vec3& a, const Vec3& b) const {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  }
 };
 
 /// A node's faces over distinct positions, all primitives together.
@@ -58,7 +60,8 @@ WeldedMesh weld(const RawMeshNode& node) {
     for (Triangle face : primitive.faces) {
       for (std::uint32_t& corner : face) {
         const Vec3& position = primitive.vertices[corner].position;
-        const auto [entry, is_new] = numbers.try_emplace(position, static_cast<std::uint32_t>(mesh.positions.size()));
+        const auto [entry, is_new] =
+            numbers.try_emplace(position, static_cast<std::uint32_t>(mesh.positions.size()));
         if (is_new) mesh.positions.push_back(position);
         corner = entry->second;
       }
@@ -114,7 +117,9 @@ TEST_P(EachSex, BodyStandsAsTheConventionSays) {
       highest = std::max(highest, vertex.position.y);
       widest = std::max(widest, std::abs(vertex.position.x));
       EXPECT_NEAR(glm::length(vertex.normal), 1.0f, 1e-4f);
-      EXPECT_NEAR(vertex.skin.weights[0] + vertex.skin.weights[1] + vertex.skin.weights[2] + vertex.skin.weights[3], 1.0f, 1e-5f);
+      EXPECT_NEAR(
+          vertex.skin.weights[0] + vertex.skin.weights[1] + vertex.skin.weights[2] + vertex.skin.weights[3],
+          1.0f, 1e-5f);
       EXPECT_TRUE(std::is_sorted(vertex.skin.weights.rbegin(), vertex.skin.weights.rend()));
     }
   }
@@ -124,7 +129,8 @@ TEST_P(EachSex, BodyStandsAsTheConventionSays) {
   const RawSkeleton& skeleton = made.skeleton;
   ASSERT_EQ(skeleton.joints.size(), 53u);
   EXPECT_EQ(skeleton.bones[0].name, "Root");
-  for (std::size_t b = 0; b < skeleton.bones.size(); ++b) EXPECT_LT(skeleton.bones[b].parent, static_cast<int>(b));
+  for (std::size_t b = 0; b < skeleton.bones.size(); ++b)
+    EXPECT_LT(skeleton.bones[b].parent, static_cast<int>(b));
   std::vector<Mat4> pose(skeleton.bones.size());
   globalPose(skeleton, restPose(skeleton), pose);
   for (std::size_t b = 0; b < pose.size(); ++b) {
@@ -189,7 +195,8 @@ void expectFittedBodiesAreParts(const MadePerson& made) {
   }
   for (const MadeOutfit& outfit : made.outfits) {
     EXPECT_EQ(faceCount(outfit.unfitted.meshes.front()), faceCount(made.body.meshes.front()));
-    EXPECT_LT(faceCount(outfit.fitted.meshes.front()), faceCount(made.body.meshes.front()) * 4 / 5) << outfit.name;
+    EXPECT_LT(faceCount(outfit.fitted.meshes.front()), faceCount(made.body.meshes.front()) * 4 / 5)
+        << outfit.name;
     bool head_is_full = false;
     for (const RawPrimitive& primitive : outfit.fitted.meshes.front().primitives) {
       const std::string& region = outfit.fitted.materials[primitive.material].name;
@@ -199,7 +206,8 @@ void expectFittedBodiesAreParts(const MadePerson& made) {
         next = std::find(next, template_faces[region].end(), key(primitive, face));
         ASSERT_NE(next, template_faces[region].end()) << outfit.name << " " << region;
       }
-      head_is_full = head_is_full || (region == "head" && primitive.faces.size() * 10 > template_faces[region].size() * 9);
+      head_is_full = head_is_full ||
+                     (region == "head" && primitive.faces.size() * 10 > template_faces[region].size() * 9);
     }
     EXPECT_TRUE(head_is_full) << outfit.name;
   }
@@ -231,7 +239,8 @@ TEST_P(EachSex, ClipsLoopAndAreInPlace) {
       EXPECT_EQ(first.rotation, last.rotation);
       // No key jumps: under 20 degrees from one to the next.
       for (std::uint32_t k = 0; k + 1 < clip.key_count; ++k) {
-        EXPECT_GT(std::abs(glm::dot(clip.key(k)[b].rotation, clip.key(k + 1)[b].rotation)), std::cos(radians(10.0f)))
+        EXPECT_GT(std::abs(glm::dot(clip.key(k)[b].rotation, clip.key(k + 1)[b].rotation)),
+                  std::cos(radians(10.0f)))
             << clip.name << " key " << k << " " << made.skeleton.bones[b].name;
       }
     }
@@ -328,7 +337,8 @@ Standing standingOf(const Vec3& p, const PosedNode& garment, const std::vector<s
   Standing standing;
   for (const std::uint32_t f : faces) {
     const Triangle& face = garment.faces[f];
-    const Vec3 &a = garment.positions[face[0]], &b = garment.positions[face[1]], &c = garment.positions[face[2]];
+    const Vec3 &a = garment.positions[face[0]], &b = garment.positions[face[1]],
+               &c = garment.positions[face[2]];
     const Vec3 nearest = nearestOnTriangle(p, a, b, c);
     const float gap = glm::distance(p, nearest);
     const Vec3 normal = glm::cross(b - a, c - a);
@@ -348,7 +358,8 @@ struct Covered {
 };
 
 /// The vertices of `body` under garments at rest; what stands out of them already is a failure.
-std::vector<Covered> findCovered(const RawAsset& outfit, const PosedNode& body, const std::vector<Mat4>& at_rest) {
+std::vector<Covered> findCovered(const RawAsset& outfit, const PosedNode& body,
+                                 const std::vector<Mat4>& at_rest) {
   constexpr float kNear = 0.04f;
   std::vector<Covered> covered;
   for (std::size_t n = 1; n < outfit.meshes.size(); ++n) {
@@ -359,13 +370,15 @@ std::vector<Covered> findCovered(const RawAsset& outfit, const PosedNode& body, 
       std::vector<std::uint32_t> faces;
       for (std::uint32_t f = 0; f < cloth.faces.size(); ++f) {
         const Triangle& face = cloth.faces[f];
-        const float gap = glm::distance(body.positions[v], nearestOnTriangle(body.positions[v], cloth.positions[face[0]],
-                                                                             cloth.positions[face[1]], cloth.positions[face[2]]));
+        const float gap = glm::distance(
+            body.positions[v], nearestOnTriangle(body.positions[v], cloth.positions[face[0]],
+                                                 cloth.positions[face[1]], cloth.positions[face[2]]));
         if (gap < kNear) faces.push_back(f);
       }
       const Standing standing = standingOf(body.positions[v], cloth, faces);
       const bool same_way = glm::dot(standing.cloth_normal, body.normals[v]) > 0.3f;
-      if (standing.gap > (standing.out > 0.0f ? 0.01f : 0.03f) || !same_way || !standing.is_inside_a_face) continue;
+      if (standing.gap > (standing.out > 0.0f ? 0.01f : 0.03f) || !same_way || !standing.is_inside_a_face)
+        continue;
       EXPECT_LT(standing.out, 0.002f) << name << " at rest";
       if (standing.out < 0.0f) covered.push_back({v, n, std::move(faces)});
     }
@@ -406,8 +419,9 @@ void expectSkinDoesNotPokeThrough(const MadePerson& made) {
     EXPECT_LE(fitted * 500, fitted_of) << outfit.name << ": " << fitted << " of " << fitted_of;
     const auto [unfitted, unfitted_of] = countPoking(made, outfit.unfitted);
     EXPECT_LE(unfitted * 100, unfitted_of) << outfit.name << ": " << unfitted << " of " << unfitted_of;
-    ::testing::Test::RecordProperty(outfit.name, std::to_string(fitted) + "/" + std::to_string(fitted_of) + ", complete body " +
-                                    std::to_string(unfitted) + "/" + std::to_string(unfitted_of));
+    ::testing::Test::RecordProperty(outfit.name, std::to_string(fitted) + "/" + std::to_string(fitted_of) +
+                                                     ", complete body " + std::to_string(unfitted) + "/" +
+                                                     std::to_string(unfitted_of));
   }
 }
 
@@ -455,10 +469,12 @@ TEST(MakePeople, FilesAreReadBackAsMade) {
 }
 
 TEST(MakePeople, ExtremeFiguresAreSound) {
-  for (const FigureOptions& options : {FigureOptions{Sex::kFemale, 1.45f, 1.0f}, FigureOptions{Sex::kMale, 2.05f, -1.0f}}) {
+  for (const FigureOptions& options :
+       {FigureOptions{Sex::kFemale, 1.45f, 1.0f}, FigureOptions{Sex::kMale, 2.05f, -1.0f}}) {
     const Figure figure = makeFigure(options);
     const FieldMesh mesh = makeBodyMesh(figure, 3300);
-    EXPECT_EQ(static_cast<int>(mesh.positions.size()) - static_cast<int>(mesh.faces.size()) / 2, 2) << options.height;
+    EXPECT_EQ(static_cast<int>(mesh.positions.size()) - static_cast<int>(mesh.faces.size()) / 2, 2)
+        << options.height;
     std::set<std::uint8_t> labels(mesh.labels.begin(), mesh.labels.end());
     EXPECT_EQ(labels.size(), 6u);
   }
@@ -470,7 +486,8 @@ TEST(PeopleConfig, ReadsEveryKey) {
   const PeopleConfig config = parse(
       "version: 1\n"
       "people:\n"
-      "  - {name: ann, sex: female, height: 1.7, build: 0.5, seed: 7, skin: tan, hair: [1, 0, 0], outfits: [summer], faces: 4000}\n"
+      "  - {name: ann, sex: female, height: 1.7, build: 0.5, seed: 7, skin: tan, hair: [1, 0, 0], outfits: "
+      "[summer], faces: 4000}\n"
       "  - {name: bob, sex: male}\n");
   ASSERT_EQ(config.people.size(), 2u);
   const PersonConfig& ann = config.people[0];
@@ -487,31 +504,35 @@ TEST(PeopleConfig, ReadsEveryKey) {
 }
 
 TEST(PeopleConfig, ErrorsTellHowToMend) {
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: []\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: []\n"),
                      "p.yaml: 2:9: people is empty; add {name: woman, sex: female}");
-  EXPECT_INPUT_ERROR(parse("version: 1\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\n"),
                      "p.yaml: 1:1: the file has no people; add people: [{name: woman, sex: female}]");
-  EXPECT_INPUT_ERROR(parse("people: [{name: a, sex: male}]\n"), 
+  EXPECT_INPUT_ERROR(parse("people: [{name: a, sex: male}]\n"),
                      "p.yaml: 1:1: the file has no version; add version: 1");
-  EXPECT_INPUT_ERROR(parse("version: 2\npeople: [{name: a, sex: male}]\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 2\npeople: [{name: a, sex: male}]\n"),
                      "p.yaml: 1:10: version is '2'; give a whole number from 1 to 1");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a}]\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a}]\n"),
                      "p.yaml: 2:10: people.0 has no sex; add sex: female or sex: male");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: mail}]\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: mail}]\n"),
                      "p.yaml: 2:25: people.0.sex is 'mail'; give 'female' or 'male'");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: ../a, sex: male}]\n"), 
-                     "p.yaml: 2:17: people.0.name is '../a', which can't be a folder's name; use up to 64 letters, digits, '-' and '_'");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, height: 3}]\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: ../a, sex: male}]\n"),
+                     "p.yaml: 2:17: people.0.name is '../a', which can't be a folder's name; use up to 64 "
+                     "letters, digits, '-' and '_'");
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, height: 3}]\n"),
                      "p.yaml: 2:39: people.0.height is '3'; give a number from 1.4 to 2.1 (metres)");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, hight: 1.7}]\n"), 
-                     "p.yaml: 2:31: unknown key 'hight' in people.0; write 'height' (known: name, sex, height, build, seed, skin, hair, outfits, faces)");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, skin: green}]\n"), 
-                     "p.yaml: 2:37: people.0.skin is 'green', which is no colour known here; write 'pale', 'fair', 'olive', 'tan', 'brown' or 'dark' or [r, g, b] from 0 to 1");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, outfits: [suite]}]\n"), 
-                     "p.yaml: 2:41: people.0.outfits.0 is 'suite', which is no outfit; did you mean 'suit'? There are 'casual', 'suit', 'sport' and 'weekend'");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, outfits: [suit, suit]}]\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, hight: 1.7}]\n"),
+                     "p.yaml: 2:31: unknown key 'hight' in people.0; write 'height' (known: name, sex, "
+                     "height, build, seed, skin, hair, outfits, faces)");
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, skin: green}]\n"),
+                     "p.yaml: 2:37: people.0.skin is 'green', which is no colour known here; write 'pale', "
+                     "'fair', 'olive', 'tan', 'brown' or 'dark' or [r, g, b] from 0 to 1");
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, outfits: [suite]}]\n"),
+                     "p.yaml: 2:41: people.0.outfits.0 is 'suite', which is no outfit; did you mean 'suit'? "
+                     "There are 'casual', 'suit', 'sport' and 'weekend'");
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, outfits: [suit, suit]}]\n"),
                      "p.yaml: 2:47: people.0.outfits.1 is 'suit', which is there twice; leave one out");
-  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male}, {name: a, sex: male}]\n"), 
+  EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male}, {name: a, sex: male}]\n"),
                      "p.yaml: 2:32: the name 'a' is there twice; give each person a name of its own");
 }
 

@@ -37,7 +37,8 @@ TEST(MatchFaces, FindsEveryFaceWhateverTheOrderAndFirstCorner) {
   for (std::uint32_t i = 0; i < in_order.size(); ++i) {
     source.push_back(static_cast<std::uint32_t>((i * 77u + 5u) % in_order.size()));  // 77 and 192 are coprime
     shuffled.push_back(in_order[source.back()]);
-    std::rotate(shuffled.back().corners.begin(), shuffled.back().corners.begin() + i % 3, shuffled.back().corners.end());
+    std::rotate(shuffled.back().corners.begin(), shuffled.back().corners.begin() + i % 3,
+                shuffled.back().corners.end());
   }
   const FaceMatches matches = matchFaces(body, shuffled, 0.0002f);
   EXPECT_EQ(matches.unmatched, 0u);
@@ -54,7 +55,8 @@ TEST(MatchFaces, KeepsToToleranceMaterialAndWinding) {
   other_material.material = 1;
   std::swap(turned.corners[0], turned.corners[1]);
   any.material = EmbeddedFace::kAnyMaterial;
-  for (const auto& [face, expected] : {std::pair{near, true}, {far, false}, {other_material, false}, {turned, false}, {any, true}}) {
+  for (const auto& [face, expected] :
+       {std::pair{near, true}, {far, false}, {other_material, false}, {turned, false}, {any, true}}) {
     const FaceMatches matches = matchFaces(body, std::span(&face, 1), 0.0002f);
     EXPECT_EQ(matches.template_face[0].valid(), expected);
     EXPECT_EQ(matches.unmatched, expected ? 0u : 1u);

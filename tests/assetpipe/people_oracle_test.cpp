@@ -28,7 +28,8 @@ class PeopleOracle : public ::testing::TestWithParam<std::string> {
 
   std::vector<fs::path> outfitFiles() const {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(kPeople / GetParam() / "outfits")) files.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(kPeople / GetParam() / "outfits"))
+      files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
   }

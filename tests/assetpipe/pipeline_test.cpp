@@ -29,11 +29,13 @@ class Pipeline : public ::testing::Test {
     writeFileAtomically(folder_ / "tunic.glb", writeGlb(testing::tubeOutfit([](int region, int face) {
                           return region == 0 || (region == 1 && face % 2 == 0);
                         })));
-    writeFileAtomically(folder_ / "bare.glb", writeGlb(testing::tubeOutfit([](int region, int) { return region < 2; })));
+    writeFileAtomically(folder_ / "bare.glb",
+                        writeGlb(testing::tubeOutfit([](int region, int) { return region < 2; })));
   }
 
   Manifest tagBoth(const PipelineOptions& options = {}) {
-    return tagWardrobe(folder_ / "template.glb", {folder_ / "tunic.glb", folder_ / "bare.glb"}, wardrobe_, options);
+    return tagWardrobe(folder_ / "template.glb", {folder_ / "tunic.glb", folder_ / "bare.glb"}, wardrobe_,
+                       options);
   }
 
   std::vector<std::byte> manifestBytes() const { return readFile(wardrobe_ / "wardrobe.json"); }
@@ -55,7 +57,8 @@ TEST_F(Pipeline, WritesAWardrobeThatLoads) {
   const Item& tunic = wardrobe.items[ItemId(0)];
   EXPECT_EQ(tunic.name, "tunic");
   EXPECT_EQ(tunic.tags[RegionId(1)].visibility, Visibility::kPartial);
-  for (std::uint32_t f = 0; f < 192; ++f) EXPECT_EQ(tunic.visible[FaceId(f)] != 0, f < 64 || (f < 128 && f % 2 == 0));
+  for (std::uint32_t f = 0; f < 192; ++f)
+    EXPECT_EQ(tunic.visible[FaceId(f)] != 0, f < 64 || (f < 128 && f % 2 == 0));
   EXPECT_EQ(tunic.garmentFaceCount(), 80u);
 }
 
@@ -70,9 +73,12 @@ TEST_F(Pipeline, DracoKeepsNumbersAndClasses) {
   EXPECT_EQ(packed.body.faces, plain.body.faces);
   ASSERT_EQ(packed.body.vertices.size(), plain.body.vertices.size());
   for (std::size_t v = 0; v < plain.body.vertices.size(); ++v) {
-    EXPECT_NEAR(glm::distance(packed.body.vertices[VertexId(v)].position, plain.body.vertices[VertexId(v)].position), 0.0f, 5e-5f);
+    EXPECT_NEAR(
+        glm::distance(packed.body.vertices[VertexId(v)].position, plain.body.vertices[VertexId(v)].position),
+        0.0f, 5e-5f);
   }
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(packed.items[ItemId(i)].visible, plain.items[ItemId(i)].visible);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(packed.items[ItemId(i)].visible, plain.items[ItemId(i)].visible);
 }
 
 TEST_F(Pipeline, TagShipAddGivesTheSameEntry) {
@@ -91,8 +97,9 @@ TEST_F(Pipeline, TagShipAddGivesTheSameEntry) {
 TEST_F(Pipeline, TagsOutfitsThatWereTaggedBefore) {
   const Manifest first = tagBoth();
   const fs::path again = folder_ / "again";
-  const Manifest second = tagWardrobe(folder_ / "template.glb",
-                                      {wardrobe_ / first.outfits[0].file, wardrobe_ / first.outfits[1].file}, again, {});
+  const Manifest second =
+      tagWardrobe(folder_ / "template.glb",
+                  {wardrobe_ / first.outfits[0].file, wardrobe_ / first.outfits[1].file}, again, {});
   EXPECT_EQ(writeManifest(first), writeManifest(second));
 }
 
@@ -105,9 +112,11 @@ TEST_F(Pipeline, RefusesAnOutfitTaggedForAnotherTemplate) {
   tagWardrobe(folder_ / "other.glb", {}, there, {});
   const std::vector<std::byte> manifest = readFile(there / "wardrobe.json");
   const std::string shipped = (wardrobe_ / here.outfits[0].file).string();
-  EXPECT_INPUT_ERROR(addOutfits(there, {shipped}, {}),
-                     shipped + ": /extras/ensemble/template/geometry_hash: this outfit was tagged for another template, "
-                               "its classes don't hold here; tag the raw outfit for this template");
+  EXPECT_INPUT_ERROR(
+      addOutfits(there, {shipped}, {}),
+      shipped +
+          ": /extras/ensemble/template/geometry_hash: this outfit was tagged for another template, "
+          "its classes don't hold here; tag the raw outfit for this template");
   EXPECT_EQ(readFile(there / "wardrobe.json"), manifest);
 }
 
@@ -118,7 +127,8 @@ TEST_F(Pipeline, AddsAndRemovesWithoutTouchingOthers) {
   EXPECT_EQ(loadWardrobe(wardrobe_).items.size(), 1u);
   EXPECT_EQ(outfitFileCount(), 1u) << "the removed outfit's file stayed";
   addOutfits(wardrobe_, {folder_ / "bare.glb"}, {});
-  EXPECT_EQ(writeManifest(both), std::string(reinterpret_cast<const char*>(manifestBytes().data()), manifestBytes().size()));
+  EXPECT_EQ(writeManifest(both),
+            std::string(reinterpret_cast<const char*>(manifestBytes().data()), manifestBytes().size()));
   EXPECT_EQ(fs::last_write_time(wardrobe_ / both.outfits[0].file), tunic_time);
 }
 
@@ -126,18 +136,21 @@ TEST_F(Pipeline, NamesWhatStandsInTheWay) {
   tagBoth();
   const std::vector<std::byte> before = manifestBytes();
   EXPECT_INPUT_ERROR(addOutfits(wardrobe_, {folder_ / "tunic.glb"}, {}),
-                     (folder_ / "tunic.glb").string() + ": the wardrobe has an outfit 'tunic' already; remove that first "
-                                                        "(`ensemble remove`), or rename the file");
+                     (folder_ / "tunic.glb").string() +
+                         ": the wardrobe has an outfit 'tunic' already; remove that first "
+                         "(`ensemble remove`), or rename the file");
   EXPECT_INPUT_ERROR(removeOutfits(wardrobe_, {"tunik"}),
                      wardrobe_.string() + ": the wardrobe has no outfit 'tunik'; did you mean 'tunic'?");
-  EXPECT_INPUT_ERROR(removeOutfits(folder_ / "nowhere", {"tunic"}),
-                     (folder_ / "nowhere").string() +
-                         ": there is no wardrobe here (no wardrobe.json); give a folder made by `ensemble tag`");
+  EXPECT_INPUT_ERROR(
+      removeOutfits(folder_ / "nowhere", {"tunic"}),
+      (folder_ / "nowhere").string() +
+          ": there is no wardrobe here (no wardrobe.json); give a folder made by `ensemble tag`");
   fs::create_directory(folder_ / "copies");
   fs::copy_file(folder_ / "tunic.glb", folder_ / "copies" / "tunic.glb");
-  EXPECT_INPUT_ERROR(tagWardrobe(folder_ / "template.glb", {folder_ / "tunic.glb", folder_ / "copies" / "tunic.glb"},
-                                 wardrobe_, {}),
-                     (folder_ / "copies" / "tunic.glb").string() + ": two outfits are named 'tunic'; rename one of the files");
+  EXPECT_INPUT_ERROR(tagWardrobe(folder_ / "template.glb",
+                                 {folder_ / "tunic.glb", folder_ / "copies" / "tunic.glb"}, wardrobe_, {}),
+                     (folder_ / "copies" / "tunic.glb").string() +
+                         ": two outfits are named 'tunic'; rename one of the files");
   EXPECT_EQ(manifestBytes(), before);
 }
 
@@ -170,12 +183,14 @@ TEST_F(Pipeline, LoadingTellsDamage) {
   bytes[bytes.size() / 2] ^= std::byte{1};
   writeFileAtomically(outfit, bytes);
   EXPECT_INPUT_ERROR(loadWardrobe(wardrobe_),
-                     outfit.string() + ": this file is damaged: its SHA-256 is not the one in wardrobe.json; copy the "
-                                       "whole folder again, or make it with `ensemble tag`");
+                     outfit.string() +
+                         ": this file is damaged: its SHA-256 is not the one in wardrobe.json; copy the "
+                         "whole folder again, or make it with `ensemble tag`");
   fs::remove(outfit);
   EXPECT_INPUT_ERROR(loadWardrobe(wardrobe_),
-                     outfit.string() + ": this file of the wardrobe is missing; copy the whole folder again, or make it "
-                                       "with `ensemble tag`");
+                     outfit.string() +
+                         ": this file of the wardrobe is missing; copy the whole folder again, or make it "
+                         "with `ensemble tag`");
 }
 
 TEST_F(Pipeline, ReportBytesAreOfWhatIsDrawn) {
@@ -195,7 +210,8 @@ TEST_F(Pipeline, AddsClipsOfTheSameSkeleton) {
   // Blender turns bone axes: the same motion in other local frames.
   const Quat turn = glm::angleAxis(0.5f, Vec3(0, 1, 0));
   moves.skeleton.bones[1].rest.rotation = turn;
-  moves.skeleton.joints[1].joint_from_model = Mat4(glm::mat4_cast(glm::inverse(turn))) * moves.skeleton.joints[1].joint_from_model;
+  moves.skeleton.joints[1].joint_from_model =
+      Mat4(glm::mat4_cast(glm::inverse(turn))) * moves.skeleton.joints[1].joint_from_model;
   for (Vec4& value : moves.clips[0].channels[0].values) {
     const Quat turned = Quat(value.w, value.x, value.y, value.z) * turn;
     value = Vec4(turned.x, turned.y, turned.z, turned.w);

@@ -25,7 +25,9 @@ TEST(Report, ExtrapolatesAsThePapersFigure6) {
   EXPECT_EQ(three.of, countStoredFaces(kTable2Template, kTable2).of);
   // Towards many outfits tagged needs 59 % of pre-fitted.
   const StoredFaces many = extrapolateStoredFaces(kTable2Template, kTable2, 100000);
-  EXPECT_NEAR(static_cast<double>(many[Technique::kTagged]) / static_cast<double>(many[Technique::kPrefitted]), 0.59, 0.005);
+  EXPECT_NEAR(
+      static_cast<double>(many[Technique::kTagged]) / static_cast<double>(many[Technique::kPrefitted]), 0.59,
+      0.005);
 }
 
 TEST(Report, OfNoOutfitsIsTheTemplate) {

@@ -39,7 +39,8 @@ TEST(Segment, ByMaterialKeepsTheFilesOrder) {
       const FaceId face(r * 64 + f);
       EXPECT_EQ(body.region_of_face[face], RegionId(r));
       for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(body.vertices[VertexId(body.faces[face][k])].position, primitive.vertices[primitive.faces[f][k]].position);
+        EXPECT_EQ(body.vertices[VertexId(body.faces[face][k])].position,
+                  primitive.vertices[primitive.faces[f][k]].position);
       }
     }
   }
@@ -87,21 +88,35 @@ TEST(Segment, ByJointsOfUnknownNamesMakesARegionOfEach) {
 }
 
 TEST(Segment, KnowsTheJointNamesOfCommonSkeletons) {
-  const std::vector<std::pair<const char*, const char*>> expected = {
-      {"mixamorig:LeftForeArm", "arms"}, {"mixamorig:LeftUpLeg", "legs"},  {"mixamorig:LeftHandIndex1", "hands"},
-      {"mixamorig:LeftToeBase", "feet"}, {"mixamorig:Spine2", "torso"},    {"mixamorig:LeftShoulder", "torso"},
-      {"lShldrBend", "arms"},            {"lThighTwist", "legs"},          {"rMid1", "hands"},
-      {"upperarm_l", "arms"},            {"clavicle_l", "torso"},          {"ball_r", "feet"},
-      {"upper_arm.L", "arms"},           {"f_ring.01.L", "hands"},         {"shin.L", "legs"},
-      {"upperarm01.L", "arms"},          {"toe1-1.L", "feet"},             {"neck_01", "head"},
-      {"jaw", "head"},                   {"tail", ""},                     {"spring", ""}};
+  const std::vector<std::pair<const char*, const char*>> expected = {{"mixamorig:LeftForeArm", "arms"},
+                                                                     {"mixamorig:LeftUpLeg", "legs"},
+                                                                     {"mixamorig:LeftHandIndex1", "hands"},
+                                                                     {"mixamorig:LeftToeBase", "feet"},
+                                                                     {"mixamorig:Spine2", "torso"},
+                                                                     {"mixamorig:LeftShoulder", "torso"},
+                                                                     {"lShldrBend", "arms"},
+                                                                     {"lThighTwist", "legs"},
+                                                                     {"rMid1", "hands"},
+                                                                     {"upperarm_l", "arms"},
+                                                                     {"clavicle_l", "torso"},
+                                                                     {"ball_r", "feet"},
+                                                                     {"upper_arm.L", "arms"},
+                                                                     {"f_ring.01.L", "hands"},
+                                                                     {"shin.L", "legs"},
+                                                                     {"upperarm01.L", "arms"},
+                                                                     {"toe1-1.L", "feet"},
+                                                                     {"neck_01", "head"},
+                                                                     {"jaw", "head"},
+                                                                     {"tail", ""},
+                                                                     {"spring", ""}};
   for (const auto& [joint, part] : expected) EXPECT_EQ(bodyPartOfJoint(joint), part) << joint;
 }
 
 TEST(Segment, ByRulesTakesMaterialsJointsAndFaces) {
   SegmentOptions options;
   options.by = SegmentBy::kRules;
-  options.rules = {{"hat", {}, {}, {{190, 191}}}, {"top", {"head"}, {}, {}}, {"rest", {}, {"pelvis", "spine"}, {}}};
+  options.rules = {
+      {"hat", {}, {}, {{190, 191}}}, {"top", {"head"}, {}, {}}, {"rest", {}, {"pelvis", "spine"}, {}}};
   const TemplateBody body = segmentTube(options);
   EXPECT_THAT(regionNames(body), ElementsAre("rest", "top", "hat"));
   EXPECT_EQ(body.regions[RegionId(0)].face_count, 128u);
@@ -115,15 +130,18 @@ TEST(Segment, ByRulesTakesMaterialsJointsAndFaces) {
 
 TEST(Segment, RulesComeFromAFile) {
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "regions.yaml";
-  std::ofstream(file) << "regions:\n  top: {materials: [head], faces: [0-9, 12]}\n  rest: {joints: [pelvis, spine]}\n";
+  std::ofstream(file)
+      << "regions:\n  top: {materials: [head], faces: [0-9, 12]}\n  rest: {joints: [pelvis, spine]}\n";
   const std::vector<RegionRule> rules = readRegionRules(file);
   ASSERT_EQ(rules.size(), 2u);
   EXPECT_EQ(rules[0].name, "top");
   EXPECT_THAT(rules[0].faces, ElementsAre(std::pair(0u, 9u), std::pair(12u, 12u)));
   EXPECT_THAT(rules[1].joints, ElementsAre("pelvis", "spine"));
   std::ofstream(file) << "regions:\n  top: {faces: [9-0]}\n";
-  EXPECT_INPUT_ERROR(readRegionRules(file), file.string() +
-      ": 2:17: '9-0' is no range of faces; write a number such as 12 or a range such as 0-99");
+  EXPECT_INPUT_ERROR(
+      readRegionRules(file),
+      file.string() +
+          ": 2:17: '9-0' is no range of faces; write a number such as 12 or a range such as 0-99");
 }
 
 TEST(Segment, LetsWedgesOfOnePositionShareSkinWeights) {
@@ -147,21 +165,25 @@ TEST(Segment, LetsWedgesOfOnePositionShareSkinWeights) {
 TEST(Segment, RefusesWhatItCantUse) {
   RawAsset nameless = testing::tubeTemplate();
   nameless.materials[1].name = "";
-  EXPECT_INPUT_ERROR(segmentTube({}, nameless),
-                     "tube.glb: /materials: the template's faces have no material name to make regions of; give each "
-                     "part of the body a named material, or use --regions joints");
+  EXPECT_INPUT_ERROR(
+      segmentTube({}, nameless),
+      "tube.glb: /materials: the template's faces have no material name to make regions of; give each "
+      "part of the body a named material, or use --regions joints");
   RawAsset boneless = testing::tubeTemplate();
   boneless.skeleton = {};
-  EXPECT_INPUT_ERROR(segmentTube({}, boneless),
-                     "tube.glb: /skins: the template has no skin, so it can't be animated; bind the body to a skeleton "
-                     "and export it with its skin");
+  EXPECT_INPUT_ERROR(
+      segmentTube({}, boneless),
+      "tube.glb: /skins: the template has no skin, so it can't be animated; bind the body to a skeleton "
+      "and export it with its skin");
   RawAsset faceless = testing::tubeTemplate();
   faceless.meshes.clear();
-  EXPECT_INPUT_ERROR(segmentTube({}, faceless),
-                     "tube.glb: /meshes: the template has no skinned triangles; bind the body to a skeleton and export "
-                     "it with its skin");
-  EXPECT_INPUT_ERROR(segmentTube({SegmentBy::kMaterial, {}, "Body"}),
-                     "tube.glb: /nodes: no mesh node is named 'Body'; name one with --body (`ensemble inspect` lists them)");
+  EXPECT_INPUT_ERROR(
+      segmentTube({}, faceless),
+      "tube.glb: /meshes: the template has no skinned triangles; bind the body to a skeleton and export "
+      "it with its skin");
+  EXPECT_INPUT_ERROR(
+      segmentTube({SegmentBy::kMaterial, {}, "Body"}),
+      "tube.glb: /nodes: no mesh node is named 'Body'; name one with --body (`ensemble inspect` lists them)");
 }
 
 }  // namespace

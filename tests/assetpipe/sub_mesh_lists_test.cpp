@@ -19,12 +19,14 @@ Wardrobe tubeWardrobe() {
   Wardrobe wardrobe;
   wardrobe.body = segmentTemplate(testing::tubeTemplate(), {}, "tube.glb", warnings);
   const auto add = [&](const char* name, const auto& keep, float radius = 0.23f) {
-    wardrobe.items.push(tagOutfit(testing::tubeOutfit(keep, radius), wardrobe.body, {}, name, name, warnings));
+    wardrobe.items.push(
+        tagOutfit(testing::tubeOutfit(keep, radius), wardrobe.body, {}, name, name, warnings));
   };
   add("tunic", [](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); });
   add("hood", [](int region, int) { return region < 2; });
   add("same", [](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); });
-  add("wide", [](int region, int face) { return region != 1 || face < 10; }, 0.3f);
+  add(
+      "wide", [](int region, int face) { return region != 1 || face < 10; }, 0.3f);
   return wardrobe;
 }
 
@@ -36,7 +38,8 @@ std::vector<Combination> eachItem(const Wardrobe& wardrobe) {
 
 /// Corner positions of every face that a combination draws, garments and body apart.
 using Corner = std::array<float, 3>;
-std::multiset<std::array<Corner, 3>> drawnFaces(const SubMeshLists& lists, std::size_t combination, SubMeshKind kind) {
+std::multiset<std::array<Corner, 3>> drawnFaces(const SubMeshLists& lists, std::size_t combination,
+                                                SubMeshKind kind) {
   std::multiset<std::array<Corner, 3>> faces;
   for (const SubMeshId id : lists.shown[combination]) {
     const SubMesh& sub_mesh = lists.sub_meshes[id];
@@ -69,9 +72,11 @@ TEST(SubMeshLists, TechniquesDifferInHiddenBodyFacesOnly) {
     }
     EXPECT_EQ(drawnFaces(tagged, c, SubMeshKind::kGarment), drawnFaces(naive, c, SubMeshKind::kGarment));
     EXPECT_EQ(drawnFaces(naive, c, SubMeshKind::kBody).size(), wardrobe.body.faces.size());
-    EXPECT_EQ(drawnFaces(tagged, c, SubMeshKind::kBody).size(), wardrobe.items[ItemId(c)].visibleBodyFaceCount());
+    EXPECT_EQ(drawnFaces(tagged, c, SubMeshKind::kBody).size(),
+              wardrobe.items[ItemId(c)].visibleBodyFaceCount());
     std::size_t hidden = 0;
-    for (const std::uint32_t word : tagged.hidden_bits[c]) hidden += static_cast<std::size_t>(__builtin_popcount(word));
+    for (const std::uint32_t word : tagged.hidden_bits[c])
+      hidden += static_cast<std::size_t>(__builtin_popcount(word));
     EXPECT_EQ(hidden, wardrobe.body.faces.size() - wardrobe.items[ItemId(c)].visibleBodyFaceCount());
   }
 }
@@ -96,13 +101,15 @@ TEST(SubMeshLists, CountBytesAsTheGpuHoldsThem) {
   const std::uint64_t garments = 2 * (48u * 40 + 80 * 6);
   EXPECT_EQ(lowerBoundBytes(wardrobe, combinations), body + garments);
   EXPECT_EQ(buildSubMeshLists(wardrobe, combinations, Technique::kNaive).meshBytes(), body + garments);
-  EXPECT_EQ(buildSubMeshLists(wardrobe, combinations, Technique::kTagged).meshBytes(), body + garments + (32 + 10) * 6);
+  EXPECT_EQ(buildSubMeshLists(wardrobe, combinations, Technique::kTagged).meshBytes(),
+            body + garments + (32 + 10) * 6);
 }
 
 TEST(SubMeshLists, DrawGarmentsFirstAndFacesInOneOrder) {
   const Wardrobe wardrobe = tubeWardrobe();
   const auto combinations = eachItem(wardrobe);
-  std::array<std::vector<std::vector<std::uint32_t>>, 3> order;  // per technique and combination: FaceIds as drawn
+  std::array<std::vector<std::vector<std::uint32_t>>, 3>
+      order;  // per technique and combination: FaceIds as drawn
   for (const Technique technique : kAllTechniques) {
     const SubMeshLists lists = buildSubMeshLists(wardrobe, combinations, technique);
     for (std::size_t c = 0; c < combinations.size(); ++c) {

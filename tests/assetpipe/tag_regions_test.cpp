@@ -20,12 +20,15 @@ TemplateBody tubeBody() {
 
 /// Legs all visible, half of the torso's faces, none of the head's.
 RawAsset halfDressed() {
-  return testing::tubeOutfit([](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); });
+  return testing::tubeOutfit(
+      [](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); });
 }
 
-Item tag(const RawAsset& outfit, std::vector<std::string>* warnings = nullptr, const TagOptions& options = {}) {
+Item tag(const RawAsset& outfit, std::vector<std::string>* warnings = nullptr,
+         const TagOptions& options = {}) {
   std::vector<std::string> ignored;
-  return tagOutfit(outfit, tubeBody(), options, "tunic", "tunic.glb", warnings != nullptr ? *warnings : ignored);
+  return tagOutfit(outfit, tubeBody(), options, "tunic", "tunic.glb",
+                   warnings != nullptr ? *warnings : ignored);
 }
 
 void expectHalfDressed(const Item& item) {
@@ -86,14 +89,16 @@ TEST(TagRegions, MapsJointsByName) {
 TEST(TagRegions, RefusesAnotherSkeleton) {
   RawAsset missing = halfDressed();
   missing.skeleton.bones[1].name = "chest";
-  EXPECT_INPUT_ERROR(tag(missing),
-                     "tunic.glb: /skins: the outfit is bound to joints that the template's skeleton lacks: 'chest'; bind "
-                     "it to the template's skeleton, or move these weights to the template's joints");
+  EXPECT_INPUT_ERROR(
+      tag(missing),
+      "tunic.glb: /skins: the outfit is bound to joints that the template's skeleton lacks: 'chest'; bind "
+      "it to the template's skeleton, or move these weights to the template's joints");
   RawAsset moved = halfDressed();
   moved.skeleton.joints[1].joint_from_model[3].y += 0.01f;
-  EXPECT_INPUT_ERROR(tag(moved),
-                     "tunic.glb: /skins: joint 'spine' stands 10.0 mm from the template's in the bind pose; bind the "
-                     "outfit to the template's own skeleton, in the template's pose");
+  EXPECT_INPUT_ERROR(
+      tag(moved),
+      "tunic.glb: /skins: joint 'spine' stands 10.0 mm from the template's in the bind pose; bind the "
+      "outfit to the template's own skeleton, in the template's pose");
 }
 
 TEST(TagRegions, RefusesAnotherBodyAndTellsHowFar) {
@@ -101,9 +106,10 @@ TEST(TagRegions, RefusesAnotherBodyAndTellsHowFar) {
   for (RawPrimitive& primitive : outfit.meshes[0].primitives) {
     for (RawVertex& vertex : primitive.vertices) vertex.position.y += 0.004f;
   }
-  EXPECT_INPUT_ERROR(tag(outfit),
-                     "tunic.glb: /meshes: 96 of the 96 body faces match no face of the template; corners are 4.00 mm "
-                     "(median) to 4.00 mm (maximum) from it; tag it with the template that it was made for");
+  EXPECT_INPUT_ERROR(
+      tag(outfit),
+      "tunic.glb: /meshes: 96 of the 96 body faces match no face of the template; corners are 4.00 mm "
+      "(median) to 4.00 mm (maximum) from it; tag it with the template that it was made for");
 }
 
 TEST(TagRegions, KeepsUpToTwoPercentOfUnmatchedFaces) {
@@ -116,7 +122,8 @@ TEST(TagRegions, KeepsUpToTwoPercentOfUnmatchedFaces) {
   std::vector<std::string> warnings;
   const Item item = tag(outfit, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_THAT(warnings[0], HasSubstr("1 of the 96 body faces match no face of the template (corners up to 3.00 mm off)"));
+  EXPECT_THAT(warnings[0],
+              HasSubstr("1 of the 96 body faces match no face of the template (corners up to 3.00 mm off)"));
   EXPECT_EQ(item.tags[RegionId(0)].visibility, Visibility::kPartial);
   EXPECT_EQ(item.tags[RegionId(0)].visible_faces, 64u);
   ASSERT_EQ(item.extra_body.size(), 1u);
@@ -128,19 +135,21 @@ TEST(TagRegions, KeepsUpToTwoPercentOfUnmatchedFaces) {
 }
 
 TEST(TagRegions, RefusesAnOutfitWithoutBody) {
-  EXPECT_INPUT_ERROR(tag(testing::tubeOutfit([](int, int) { return false; })),
-                     "tunic.glb: /materials: there is no body in this outfit: no material is named as one of the "
-                     "template's ('legs', 'torso', 'head'); export the outfit with the body that it dresses, its "
-                     "materials named as the template's, or use --body NODE");
+  EXPECT_INPUT_ERROR(
+      tag(testing::tubeOutfit([](int, int) { return false; })),
+      "tunic.glb: /materials: there is no body in this outfit: no material is named as one of the "
+      "template's ('legs', 'torso', 'head'); export the outfit with the body that it dresses, its "
+      "materials named as the template's, or use --body NODE");
 }
 
 TEST(TagRegions, RefusesAnUnskinnedGarment) {
   RawAsset outfit = halfDressed();
   outfit.meshes[1].skinned = false;
   outfit.meshes[1].json_pointer = "/nodes/4";
-  EXPECT_INPUT_ERROR(tag(outfit),
-                     "tunic.glb: /nodes/4: garment 'garment.tunic' is not skinned; bind it to the skeleton, parent it to "
-                     "a joint, or leave it out of the export");
+  EXPECT_INPUT_ERROR(
+      tag(outfit),
+      "tunic.glb: /nodes/4: garment 'garment.tunic' is not skinned; bind it to the skeleton, parent it to "
+      "a joint, or leave it out of the export");
 }
 
 TEST(TagRegions, TakesTheBodyFromANodeWhereAsked) {
@@ -151,7 +160,8 @@ TEST(TagRegions, TakesTheBodyFromANodeWhereAsked) {
   expectHalfDressed(tag(outfit, nullptr, options));
   options.body_node = "Body";
   EXPECT_INPUT_ERROR(tag(outfit, nullptr, options),
-                     "tunic.glb: /nodes: no mesh node is named 'Body'; name one with --body (`ensemble inspect` lists them)");
+                     "tunic.glb: /nodes: no mesh node is named 'Body'; name one with --body (`ensemble "
+                     "inspect` lists them)");
 }
 
 TEST(TagRegions, ReadsSlotAndLayerFromTheScene) {
@@ -161,8 +171,9 @@ TEST(TagRegions, ReadsSlotAndLayerFromTheScene) {
   EXPECT_EQ(item.slot, "top");
   EXPECT_EQ(item.layer, 2);
   outfit.scene_extras_json = R"({"ensemble": {"layer": "outer"}})";
-  EXPECT_INPUT_ERROR(tag(outfit),
-                     "tunic.glb: /scenes: the custom property 'layer' is no whole number from -1000 to 1000; set a number");
+  EXPECT_INPUT_ERROR(
+      tag(outfit),
+      "tunic.glb: /scenes: the custom property 'layer' is no whole number from -1000 to 1000; set a number");
 }
 
 TEST(TagRegions, WarnsOnceOfACompleteBody) {

@@ -24,7 +24,9 @@ class CommandLine : public ::testing::Test {
                         })));
   }
 
-  ProgramResult run(const std::string& arguments) const { return testing::runProgram(arguments, folder_.path()); }
+  ProgramResult run(const std::string& arguments) const {
+    return testing::runProgram(arguments, folder_.path());
+  }
 
   testing::TemporaryFolder folder_;
 };
@@ -37,7 +39,8 @@ TEST_F(CommandLine, HelpAndVersion) {
     const ProgramResult own = run(std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;
     EXPECT_THAT(own.out, HasSubstr("Example:\n  ensemble " + std::string(command)));
-    for (const char* option : {"--json", "--quiet", "--verbose"}) EXPECT_THAT(own.out, HasSubstr(option)) << command;
+    for (const char* option : {"--json", "--quiet", "--verbose"})
+      EXPECT_THAT(own.out, HasSubstr(option)) << command;
   }
   const ProgramResult version = run("--version");
   EXPECT_EQ(version.exit_code, 0);
@@ -56,7 +59,8 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
   const ProgramResult automatic = run("tag template.glb tunic.glb -o w --auto-occlusion");
   EXPECT_EQ(automatic.exit_code, 2);
   EXPECT_EQ(automatic.err,
-            "ensemble: --occlusion: finding hidden faces is not in this version; remove the faces that clothes hide "
+            "ensemble: --occlusion: finding hidden faces is not in this version; remove the faces that "
+            "clothes hide "
             "before exporting, and use --occlusion authored\n");
 }
 
@@ -64,7 +68,8 @@ TEST_F(CommandLine, InvalidInputIsThree) {
   const std::vector<std::pair<const char*, const char*>> cases = {
       {"tag none.glb -o w", "ensemble: none.glb: no such file; check the path\n"},
       {"report nowhere",
-       "ensemble: nowhere: there is no wardrobe here (no wardrobe.json); give a folder made by `ensemble tag`\n"},
+       "ensemble: nowhere: there is no wardrobe here (no wardrobe.json); give a folder made by `ensemble "
+       "tag`\n"},
       {"inspect none.glb", "ensemble: none.glb: no such file; check the path\n"}};
   for (const auto& [arguments, message] : cases) {
     const ProgramResult result = run(arguments);
@@ -78,7 +83,8 @@ TEST_F(CommandLine, WhatCantBeDoneIsOne) {
   const ProgramResult no_folder = run("tag template.glb tunic.glb -o tunic.glb/wardrobe");
   EXPECT_EQ(no_folder.exit_code, 1);
   EXPECT_EQ(no_folder.err,
-            "ensemble: tunic.glb/wardrobe: the folder can't be made: Not a directory; choose a place that you may write to\n");
+            "ensemble: tunic.glb/wardrobe: the folder can't be made: Not a directory; choose a place that "
+            "you may write to\n");
   ASSERT_EQ(run("-q tag template.glb tunic.glb -o w").exit_code, 2) << "-q belongs to the subcommand";
   ASSERT_EQ(run("tag -q template.glb tunic.glb -o w").exit_code, 0);
   const ProgramResult full = run("report w --json /dev/full");
@@ -91,7 +97,8 @@ TEST_F(CommandLine, WhatCantBeDoneIsOne) {
 TEST_F(CommandLine, TagReportInspectAddRemove) {
   const ProgramResult tagged = run("tag template.glb tunic.glb -o w");
   EXPECT_EQ(tagged.exit_code, 0) << tagged.err;
-  EXPECT_EQ(tagged.out, "tunic: legs full, torso partial (32/64), head hidden\nw: 192 faces, 3 regions, 1 outfits\n");
+  EXPECT_EQ(tagged.out,
+            "tunic: legs full, torso partial (32/64), head hidden\nw: 192 faces, 3 regions, 1 outfits\n");
   EXPECT_EQ(tagged.err, "");
 
   const ProgramResult report = run("report w --json -");

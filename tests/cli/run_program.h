@@ -22,7 +22,8 @@ struct ProgramResult {
 inline ProgramResult runProgram(const std::string& arguments, const std::filesystem::path& folder) {
   const TemporaryFolder capture;
   const std::string command = "cd '" + folder.string() + "' && '" ENSEMBLE_PROGRAM "' " + arguments + " > '" +
-                              (capture / "out").string() + "' 2> '" + (capture / "err").string() + "' < /dev/null";
+                              (capture / "out").string() + "' 2> '" + (capture / "err").string() +
+                              "' < /dev/null";
   const int status = std::system(command.c_str());
   const auto text = [](const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);

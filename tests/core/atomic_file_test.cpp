@@ -54,17 +54,21 @@ TEST(AtomicFile, TellsWhyItCantWrite) {
     writeFileAtomically(file, std::string_view("x"));
     FAIL();
   } catch (const SystemError& error) {
-    EXPECT_EQ(std::string(error.what()), file + ": can't be written: No such file or directory; make its folder first");
+    EXPECT_EQ(std::string(error.what()),
+              file + ": can't be written: No such file or directory; make its folder first");
     EXPECT_EQ(error.exitCode(), ExitCode::kFailed);
   }
 }
 
 TEST(ReadFile, RefusesWhatIsNoFile) {
   const testing::TemporaryFolder folder;
-  EXPECT_INPUT_ERROR(readFile(folder / "none"), (folder / "none").string() + ": no such file; check the path");
-  EXPECT_INPUT_ERROR(readFile(folder.path()), folder.path().string() + ": is not a regular file; give a file");
+  EXPECT_INPUT_ERROR(readFile(folder / "none"),
+                     (folder / "none").string() + ": no such file; check the path");
+  EXPECT_INPUT_ERROR(readFile(folder.path()),
+                     folder.path().string() + ": is not a regular file; give a file");
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);  // must not hang
-  EXPECT_INPUT_ERROR(readFile(folder / "pipe"), (folder / "pipe").string() + ": is not a regular file; give a file");
+  EXPECT_INPUT_ERROR(readFile(folder / "pipe"),
+                     (folder / "pipe").string() + ": is not a regular file; give a file");
   std::ofstream(folder / "big") << "12345";
   EXPECT_INPUT_ERROR(readFile(folder / "big", 4),
                      (folder / "big").string() +
@@ -79,9 +83,10 @@ TEST(FolderLock, LetsOneWriterInAtATime) {
       const FolderLock second(folder.path(), 0.05);
       FAIL() << "two writers";
     } catch (const SystemError& error) {
-      EXPECT_EQ(std::string(error.what()), folder.path().string() +
-                                               ": another process is writing this wardrobe; wait until it has finished, "
-                                               "then run it again");
+      EXPECT_EQ(std::string(error.what()),
+                folder.path().string() +
+                    ": another process is writing this wardrobe; wait until it has finished, "
+                    "then run it again");
     }
   }
   EXPECT_NO_THROW(FolderLock(folder.path(), 0.05));

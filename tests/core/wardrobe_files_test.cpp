@@ -9,9 +9,19 @@ namespace {
 
 Manifest smallManifest() {
   Manifest manifest;
-  manifest.body = {"template.glb", std::string(64, 'a'), std::string(64, 'b'), 10, 12, 3,
-                   {{"head", 4}, {"legs", 6}}, {{"walk", 1.1f, 34, 1.073f}}};
-  manifest.outfits.push_back({"casual", "outfits/casual.0123456789ab.glb", std::string(64, 'c'), "full", 0,
+  manifest.body = {"template.glb",
+                   std::string(64, 'a'),
+                   std::string(64, 'b'),
+                   10,
+                   12,
+                   3,
+                   {{"head", 4}, {"legs", 6}},
+                   {{"walk", 1.1f, 34, 1.073f}}};
+  manifest.outfits.push_back({"casual",
+                              "outfits/casual.0123456789ab.glb",
+                              std::string(64, 'c'),
+                              "full",
+                              0,
                               {{"garment.shirt", 20}},
                               {{"head", Visibility::kFull, 4, 4}, {"legs", Visibility::kPartial, 6, 2}}});
   return manifest;
@@ -34,11 +44,13 @@ TEST(Manifest, SurvivesWritingAndReading) {
 }
 
 TEST(Manifest, RefusesAnotherVersionByName) {
-  EXPECT_INPUT_ERROR(parseManifest(edited("ensemble.wardrobe/1", "ensemble.wardrobe/9"), "wardrobe.json"),
-                     "wardrobe.json: /schema: schema \"ensemble.wardrobe/9\" is not \"ensemble.wardrobe/1\"; make the "
-                     "wardrobe again with this version's `ensemble tag`");
+  EXPECT_INPUT_ERROR(
+      parseManifest(edited("ensemble.wardrobe/1", "ensemble.wardrobe/9"), "wardrobe.json"),
+      "wardrobe.json: /schema: schema \"ensemble.wardrobe/9\" is not \"ensemble.wardrobe/1\"; make the "
+      "wardrobe again with this version's `ensemble tag`");
   EXPECT_INPUT_ERROR(parseManifest("[]", "wardrobe.json"),
-                     "wardrobe.json: /schema: this is not a wardrobe manifest; expected \"schema\": \"ensemble.wardrobe/1\"");
+                     "wardrobe.json: /schema: this is not a wardrobe manifest; expected \"schema\": "
+                     "\"ensemble.wardrobe/1\"");
 }
 
 TEST(Manifest, ChecksItsSchemaAndTellsWhere) {

@@ -35,8 +35,8 @@ std::string withMendedHeader(std::string_view bytes) {
     const auto bits = static_cast<std::uint32_t>(value);
     return std::string(reinterpret_cast<const char*>(&bits), sizeof bits);
   };
-  return "glTF" + number(2) + number(kHeader + json.size() + 8 + binary.size()) + number(json.size()) + "JSON" +
-         json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+  return "glTF" + number(2) + number(kHeader + json.size() + 8 + binary.size()) + number(json.size()) +
+         "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
 bool readAndWrite(std::string_view bytes) {

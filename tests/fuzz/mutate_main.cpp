@@ -32,8 +32,9 @@ class Random {
 };
 
 /// What stands for a number where one stood: out of range, negative, fractional, no number.
-constexpr const char* kNumbers[] = {"-1", "0", "1", "3", "255", "65536", "4294967295", "4294967296",
-                                    "1e99", "0.5", "null", "[]", "{}", "true", "\"a\"", "18446744073709551615"};
+constexpr const char* kNumbers[] = {
+    "-1",   "0",   "1",    "3",  "255", "65536", "4294967295", "4294967296",
+    "1e99", "0.5", "null", "[]", "{}",  "true",  "\"a\"",      "18446744073709551615"};
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
@@ -49,11 +50,21 @@ void mutateOnce(std::string& bytes, Random& random) {
   const std::size_t at = random.below(bytes.size());
   const std::size_t length = 1 + random.below(std::min<std::size_t>(64, bytes.size() - at));
   switch (random.below(6)) {
-    case 0: bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8))); break;
-    case 1: bytes[at] = static_cast<char>(random.below(256)); break;
-    case 2: bytes.erase(at, length); break;
-    case 3: bytes.insert(random.below(bytes.size()), bytes.substr(at, length)); break;
-    default: replaceNumber(bytes, random); break;
+    case 0:
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
+      break;
+    case 1:
+      bytes[at] = static_cast<char>(random.below(256));
+      break;
+    case 2:
+      bytes.erase(at, length);
+      break;
+    case 3:
+      bytes.insert(random.below(bytes.size()), bytes.substr(at, length));
+      break;
+    default:
+      replaceNumber(bytes, random);
+      break;
   }
 }
 

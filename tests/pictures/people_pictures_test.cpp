@@ -33,17 +33,20 @@ class PeoplePictures : public ::testing::TestWithParam<std::string> {
       GTEST_SKIP() << "LOUD: ../shared/people is absent, so the pictures of real people were not compared";
     }
     std::vector<fs::path> outfits;
-    for (const auto& entry : fs::directory_iterator(kPeople / GetParam() / "outfits")) outfits.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(kPeople / GetParam() / "outfits"))
+      outfits.push_back(entry.path());
     std::sort(outfits.begin(), outfits.end());
     tagWardrobe(kPeople / GetParam() / "template.glb", outfits, folder_ / "wardrobe", {});
     wardrobes_.push_back(loadWardrobe(folder_ / "wardrobe"));
   }
 
   Scene scene(Technique technique, const char* camera, std::uint32_t samples) const {
-    const std::string text = std::string("version: 1\nwardrobe: wardrobe\ntechnique: ") + toString(technique) +
+    const std::string text = std::string("version: 1\nwardrobe: wardrobe\ntechnique: ") +
+                             toString(technique) +
                              "\noutput: {width: 480, height: 360, samples: " + std::to_string(samples) +
                              "}\ncrowd: {count: 28, seed: 5, placement: {kind: disc, spacing: 0.8}, "
-                             "clips: {walk: 0.8, idle: 0.2}}\ncamera: " + camera + "\n";
+                             "clips: {walk: 0.8, idle: 0.2}}\ncamera: " +
+                             camera + "\n";
     return parseScene(text, folder_ / "scene.yaml");
   }
 
@@ -122,7 +125,8 @@ TEST_P(PeoplePictures, TaggedDoesThePrefittedsWorkAndLessThanNaives) {
     stats[static_cast<std::size_t>(technique)] = render(technique, kShots[0], 1).stats;
   }
   if (!stats[0].vertexInvocations()) GTEST_SKIP() << "LOUD: the device counts no vertex invocations";
-  EXPECT_LE(static_cast<double>(*stats[2].vertexInvocations()), 1.02 * static_cast<double>(*stats[1].vertexInvocations()));
+  EXPECT_LE(static_cast<double>(*stats[2].vertexInvocations()),
+            1.02 * static_cast<double>(*stats[1].vertexInvocations()));
   EXPECT_LT(*stats[2].vertexInvocations(), *stats[0].vertexInvocations());
   EXPECT_EQ(stats[2].triangles(), stats[1].triangles());
   EXPECT_LT(stats[2].gpu_mesh_bytes, stats[1].gpu_mesh_bytes);

@@ -12,7 +12,8 @@ thread_local std::size_t allocation_count = 0;
 void* countedAllocation(std::size_t bytes, std::size_t alignment) {
   if (is_counting) ++allocation_count;
   const std::size_t rounded = (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
-  void* memory = alignment > alignof(std::max_align_t) ? std::aligned_alloc(alignment, rounded) : std::malloc(rounded);
+  void* memory =
+      alignment > alignof(std::max_align_t) ? std::aligned_alloc(alignment, rounded) : std::malloc(rounded);
   if (!memory) throw std::bad_alloc();
   return memory;
 }

@@ -19,7 +19,8 @@ Hit intersect(const View& view, std::uint32_t x, std::uint32_t y, const std::arr
   const CameraFrame frame = cameraFrame(view.camera);
   const float tan_y = std::tan(view.camera.fov_y / 2);
   const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-  const float u = (2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(view.width) - 1.0f) * tan_y * aspect;
+  const float u =
+      (2.0f * (static_cast<float>(x) + 0.5f) / static_cast<float>(view.width) - 1.0f) * tan_y * aspect;
   const float v = (1.0f - 2.0f * (static_cast<float>(y) + 0.5f) / static_cast<float>(view.height)) * tan_y;
   const Vec3 ray = frame.forward + u * frame.right + v * frame.up;
   const Vec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
@@ -34,8 +35,8 @@ Hit intersect(const View& view, std::uint32_t x, std::uint32_t y, const std::arr
 class AovTest : public GpuTest {
  protected:
   /// The corners of a face in the world, by the rules of design 9: interpolated matrices.
-  std::array<Vec3, 3> corners(const Character& person, std::span<const RawVertex> vertices, const Triangle& face,
-                              double seconds) const {
+  std::array<Vec3, 3> corners(const Character& person, std::span<const RawVertex> vertices,
+                              const Triangle& face, double seconds) const {
     const TemplateBody& body = wardrobes_[0].body;
     const Clip& clip = body.clips[person.clip];
     const double turns = person.phase + person.speed * seconds / clip.seconds;
@@ -43,8 +44,10 @@ class AovTest : public GpuTest {
     const auto key = static_cast<std::uint32_t>(at);
     const auto part = static_cast<float>(at - key);
     std::vector<Mat4> matrices = skinningMatrices(body.skeleton, clip.key(key));
-    const std::vector<Mat4> next = skinningMatrices(body.skeleton, clip.key(std::min(key + 1, clip.key_count - 1)));
-    for (std::size_t i = 0; i < matrices.size(); ++i) matrices[i] = matrices[i] * (1.0f - part) + next[i] * part;
+    const std::vector<Mat4> next =
+        skinningMatrices(body.skeleton, clip.key(std::min(key + 1, clip.key_count - 1)));
+    for (std::size_t i = 0; i < matrices.size(); ++i)
+      matrices[i] = matrices[i] * (1.0f - part) + next[i] * part;
     std::array<Vec3, 3> result;
     for (std::size_t i = 0; i < 3; ++i) {
       const RawVertex& vertex = vertices[face[i]];
@@ -95,7 +98,8 @@ TEST_F(AovTest, EveryPixelShowsTheFaceThatItNames) {
         const auto garment = std::find_if(item.garments.begin(), item.garments.end(),
                                           [&](const Garment& g) { return g.name == name; });
         ASSERT_NE(garment, item.garments.end()) << item.name << " has no " << name;
-        face = corners(person, garment->parts[0].vertices, garment->parts[0].faces.at(picture.face[i] - 1), seconds);
+        face = corners(person, garment->parts[0].vertices, garment->parts[0].faces.at(picture.face[i] - 1),
+                       seconds);
         ++garment_pixels;
       }
       const Hit hit = intersect(view, x, y, face);

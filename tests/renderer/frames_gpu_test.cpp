@@ -5,8 +5,8 @@
 namespace ensemble {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::GpuTest;
+using ::testing::HasSubstr;
 
 TEST_F(GpuTest, AFrameIsTheSameAloneInOrderAndShuffled) {
   Scene scene = testing::tubeScene(10);
@@ -102,7 +102,9 @@ TEST_F(GpuTest, NobodyIsAPictureToo) {
   EXPECT_EQ(picture.stats.characters_drawn, 0u);
   EXPECT_EQ(picture.stats.vertexInvocations(), 0u);
   // Blue sky above, ground below.
-  const auto pixel = [&](std::uint32_t x, std::uint32_t y) { return picture.color.rgba.data() + 4 * (y * view.width + x); };
+  const auto pixel = [&](std::uint32_t x, std::uint32_t y) {
+    return picture.color.rgba.data() + 4 * (y * view.width + x);
+  };
   EXPECT_GT(pixel(80, 0)[2], pixel(80, 0)[0] + 10);
   EXPECT_LE(pixel(80, 119)[2], pixel(80, 119)[0]);
 }

@@ -31,7 +31,8 @@ inline bool hasValidationLayer() {
 class GpuTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (deviceName() == "none") GTEST_SKIP() << "there is no Vulkan device: nothing of the renderer is tested";
+    if (deviceName() == "none")
+      GTEST_SKIP() << "there is no Vulkan device: nothing of the renderer is tested";
     wardrobes_.push_back(tubeWardrobe());
   }
 
@@ -50,7 +51,8 @@ class GpuTest : public ::testing::Test {
   }
 
   /// One picture with a renderer of its own.
-  Picture drawScene(const Scene& scene, const View& view, double seconds = 0.0, RendererOptions options = {}) {
+  Picture drawScene(const Scene& scene, const View& view, double seconds = 0.0,
+                    RendererOptions options = {}) {
     const auto renderer = makeRenderer(scene, options);
     return draw(*renderer, view, seconds);
   }

@@ -27,7 +27,8 @@ TEST(MipChain, APlainImageStaysPlainAtEverySize) {
     for (std::size_t level = 0; level < levels.size(); ++level) {
       EXPECT_EQ(levels[level].size(), 4u * (16u >> level) * (16u >> level));
       for (std::size_t i = 0; i < levels[level].size(); i += 4) {
-        EXPECT_THAT(std::vector<int>(levels[level].begin() + i, levels[level].begin() + i + 4), ElementsAre(10, 128, 255, 77));
+        EXPECT_THAT(std::vector<int>(levels[level].begin() + i, levels[level].begin() + i + 4),
+                    ElementsAre(10, 128, 255, 77));
       }
     }
   }

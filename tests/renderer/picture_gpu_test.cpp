@@ -69,7 +69,9 @@ TEST_F(PictureTest, ACutOutShowsWhatIsBehindIt) {
   const std::size_t row = std::size_t{view.width} * 60;
   std::size_t changes = 0;
   for (std::size_t x = 1; x < view.width; ++x) {
-    const auto is_net = [&](std::size_t i) { return picture.region[i] >= renderer->aovNumbers().first_garment; };
+    const auto is_net = [&](std::size_t i) {
+      return picture.region[i] >= renderer->aovNumbers().first_garment;
+    };
     if (picture.character[row + x] != 0 && picture.character[row + x - 1] != 0) {
       changes += is_net(row + x) != is_net(row + x - 1);
     }
@@ -86,7 +88,8 @@ TEST_F(PictureTest, ATextureHasItsColours) {
   std::size_t bluish = 0, other = 0;
   for (std::size_t i = 0; i < picture.region.size(); ++i) {
     if (picture.region[i] < renderer->aovNumbers().first_garment || picture.character[i] == 0) continue;
-    if (renderer->aovNumbers().garments[picture.region[i] - renderer->aovNumbers().first_garment] != "garment.patch") {
+    if (renderer->aovNumbers().garments[picture.region[i] - renderer->aovNumbers().first_garment] !=
+        "garment.patch") {
       continue;
     }
     const std::uint8_t* color = picture.color.rgba.data() + 4 * i;
@@ -123,7 +126,8 @@ TEST_F(PictureTest, TintSeedsDressPeopleDifferently) {
   for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
     scene.people[0].tint = seed;
     pictures.push_back(drawScene(scene, view).color);
-    for (std::size_t i = 0; i + 1 < pictures.size(); ++i) EXPECT_NE(pictures[i].rgba, pictures.back().rgba) << seed;
+    for (std::size_t i = 0; i + 1 < pictures.size(); ++i)
+      EXPECT_NE(pictures[i].rgba, pictures.back().rgba) << seed;
   }
 }
 

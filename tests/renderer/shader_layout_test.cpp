@@ -19,10 +19,11 @@ namespace {
 /// What a SPIR-V module says of its structures. Word layout: SPIR-V specification, section 2.3.
 struct Reflection {
   std::map<std::string, std::map<std::string, std::uint32_t>> offsets;  ///< by structure and member
-  std::map<std::string, std::uint32_t> strides;                        ///< of runtime arrays, by element
+  std::map<std::string, std::uint32_t> strides;                         ///< of runtime arrays, by element
 
   explicit Reflection(std::span<const std::uint32_t> words) {
-    constexpr std::uint32_t kName = 5, kMemberName = 6, kDecorate = 71, kMemberDecorate = 72, kRuntimeArray = 29;
+    constexpr std::uint32_t kName = 5, kMemberName = 6, kDecorate = 71, kMemberDecorate = 72,
+                            kRuntimeArray = 29;
     constexpr std::uint32_t kOffset = 35, kArrayStride = 6;
     std::map<std::uint32_t, std::string> names;
     std::map<std::uint32_t, std::map<std::uint32_t, std::string>> members;
@@ -30,18 +31,27 @@ struct Reflection {
     std::map<std::uint32_t, std::uint32_t> array_strides, elements;
     for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
       const std::uint32_t* word = words.data() + at;
-      const auto text = [&](std::size_t from) { return std::string(reinterpret_cast<const char*>(word + from)); };
+      const auto text = [&](std::size_t from) {
+        return std::string(reinterpret_cast<const char*>(word + from));
+      };
       switch (word[0] & 0xffffu) {
-        case kName: names[word[1]] = text(2); break;
-        case kMemberName: members[word[1]][word[2]] = text(3); break;
+        case kName:
+          names[word[1]] = text(2);
+          break;
+        case kMemberName:
+          members[word[1]][word[2]] = text(3);
+          break;
         case kMemberDecorate:
           if (word[3] == kOffset) member_offsets[word[1]][word[2]] = word[4];
           break;
         case kDecorate:
           if (word[2] == kArrayStride) array_strides[word[1]] = word[3];
           break;
-        case kRuntimeArray: elements[word[1]] = word[2]; break;
-        default: break;
+        case kRuntimeArray:
+          elements[word[1]] = word[2];
+          break;
+        default:
+          break;
       }
     }
     for (const auto& [id, of_members] : member_offsets) {
@@ -109,7 +119,8 @@ TEST(ShaderLayout, TheView) {
 
 // Every stage that shares a structure lays it out alike.
 TEST(ShaderLayout, StagesAgree) {
-  const Reflection fragment(kCrowdFrag), vertex(kCrowdVert), aov(kAovFrag), shadow(kShadowDiscardFrag), pose(kPoseComp);
+  const Reflection fragment(kCrowdFrag), vertex(kCrowdVert), aov(kAovFrag), shadow(kShadowDiscardFrag),
+      pose(kPoseComp);
   EXPECT_EQ(fragment.offsets.at("GpuView"), vertex.offsets.at("GpuView"));
   EXPECT_EQ(fragment.offsets.at("GpuView"), aov.offsets.at("GpuView"));
   EXPECT_EQ(fragment.offsets.at("GpuCharacter"), vertex.offsets.at("GpuCharacter"));

@@ -64,9 +64,9 @@ Item tubeItem(const std::string& name, const TemplateBody& body, const Keep& kee
       item.visible[FaceId(region.first_face + f)] = is_visible ? 1 : 0;
       tag.visible_faces += is_visible ? 1 : 0;
     }
-    tag.visibility = tag.visible_faces == 0                    ? Visibility::kHidden
+    tag.visibility = tag.visible_faces == 0                   ? Visibility::kHidden
                      : tag.visible_faces == region.face_count ? Visibility::kFull
-                                                               : Visibility::kPartial;
+                                                              : Visibility::kPartial;
     item.tags.push(tag);
   }
   return item;

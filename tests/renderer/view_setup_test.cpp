@@ -10,7 +10,10 @@ View someView() {
   View view;
   view.width = 640;
   view.height = 480;
-  view.camera = {.position = Vec3(3.0f, 2.0f, 6.0f), .target = Vec3(-1.0f, 0.5f, -2.0f), .fov_y = 0.7f, .near_plane = 0.2f};
+  view.camera = {.position = Vec3(3.0f, 2.0f, 6.0f),
+                 .target = Vec3(-1.0f, 0.5f, -2.0f),
+                 .fov_y = 0.7f,
+                 .near_plane = 0.2f};
   return view;
 }
 
@@ -22,10 +25,11 @@ TEST(ClipFromWorld, DepthIsNearOverDistanceAndTheTargetIsInTheMiddle) {
   EXPECT_NEAR(target.x / target.w, 0.0f, 1e-5f);
   EXPECT_NEAR(target.y / target.w, 0.0f, 1e-5f);
   EXPECT_NEAR(target.z / target.w, 0.2f / glm::length(view.camera.target - view.camera.position), 1e-6f);
-  const Vec4 top = clip_from_world * Vec4(view.camera.position + frame.forward + std::tan(0.35f) * frame.up, 1.0f);
+  const Vec4 top =
+      clip_from_world * Vec4(view.camera.position + frame.forward + std::tan(0.35f) * frame.up, 1.0f);
   EXPECT_NEAR(top.y / top.w, -1.0f, 1e-5f) << "y points down";
-  const Vec4 right =
-      clip_from_world * Vec4(view.camera.position + frame.forward + std::tan(0.35f) * 4 / 3 * frame.right, 1.0f);
+  const Vec4 right = clip_from_world *
+                     Vec4(view.camera.position + frame.forward + std::tan(0.35f) * 4 / 3 * frame.right, 1.0f);
   EXPECT_NEAR(right.x / right.w, 1.0f, 1e-5f);
   const Vec4 infinite = clip_from_world * Vec4(frame.forward, 0.0f);
   EXPECT_EQ(infinite.z, 0.0f);
@@ -64,7 +68,8 @@ TEST(Frustum, TouchesWhatItSees) {
 
 TEST(FindVisible, ListsNumbersAscending) {
   const View view = someView();
-  const std::vector<Sphere> bounds = {{view.camera.target, 1.0f}, {view.camera.position + Vec3(0, 0, 50), 1.0f},
+  const std::vector<Sphere> bounds = {{view.camera.target, 1.0f},
+                                      {view.camera.position + Vec3(0, 0, 50), 1.0f},
                                       {view.camera.target + Vec3(0.5f, 0, 0), 1.0f}};
   std::vector<std::uint32_t> visible = {7, 7};
   findVisible(frustumOf(view), bounds, visible);
@@ -74,7 +79,9 @@ TEST(FindVisible, ListsNumbersAscending) {
 TEST(ShadowFit, HoldsTheVisibleAndTheirDepths) {
   const View view = someView();
   std::vector<Sphere> bounds;
-  for (int i = 0; i < 20; ++i) bounds.push_back({Vec3(-3.0f + static_cast<float>(i % 5), 0.9f, -6.0f + static_cast<float>(i / 5)), 1.1f});
+  for (int i = 0; i < 20; ++i)
+    bounds.push_back(
+        {Vec3(-3.0f + static_cast<float>(i % 5), 0.9f, -6.0f + static_cast<float>(i / 5)), 1.1f});
   const ShadowFit fit = fitShadowMap(view, bounds);
   EXPECT_EQ(fit.size, 1024u);
   for (const Sphere& sphere : bounds) {
@@ -100,11 +107,13 @@ TEST(ShadowFit, MovesByWholeTexels) {
   const ShadowFit before = fitShadowMap(view, bounds);
   const Vec3 to_sun = -glm::normalize(view.light.direction);
   const Vec3 point(0.3f, 0.1f, -0.4f);
-  EXPECT_GT((before.shadow_from_world * Vec4(point + to_sun, 1.0f)).z, (before.shadow_from_world * Vec4(point, 1.0f)).z);
+  EXPECT_GT((before.shadow_from_world * Vec4(point + to_sun, 1.0f)).z,
+            (before.shadow_from_world * Vec4(point, 1.0f)).z);
   bounds[0].center += Vec3(0.137f, 0.0f, 0.071f);
   const ShadowFit after = fitShadowMap(view, bounds);
   EXPECT_EQ(before.texel_side, after.texel_side);
-  const Vec4 shift = (after.shadow_from_world - before.shadow_from_world) * Vec4(point, 1.0f) * 0.5f * 1024.0f;
+  const Vec4 shift =
+      (after.shadow_from_world - before.shadow_from_world) * Vec4(point, 1.0f) * 0.5f * 1024.0f;
   EXPECT_NEAR(shift.x, std::round(shift.x), 0.02f);
   EXPECT_NEAR(shift.y, std::round(shift.y), 0.02f);
   EXPECT_GT(std::abs(shift.x) + std::abs(shift.y), 1.0f);

@@ -40,8 +40,10 @@ inline RawPrimitive tubeBand(std::uint32_t material, float radius, float bottom,
       vertex.uv = Vec2(static_cast<float>(segment) / kTubeSegments, height);
       const float upper = std::min(1.0f, std::max(0.0f, height / 1.8f));
       const bool mostly_upper = upper > 0.5f;
-      vertex.skin.joints = {static_cast<std::uint16_t>(mostly_upper), static_cast<std::uint16_t>(!mostly_upper), 0, 0};
-      vertex.skin.weights = {mostly_upper ? upper : 1.0f - upper, mostly_upper ? 1.0f - upper : upper, 0.0f, 0.0f};
+      vertex.skin.joints = {static_cast<std::uint16_t>(mostly_upper),
+                            static_cast<std::uint16_t>(!mostly_upper), 0, 0};
+      vertex.skin.weights = {mostly_upper ? upper : 1.0f - upper, mostly_upper ? 1.0f - upper : upper, 0.0f,
+                             0.0f};
       if (vertex.skin.weights[1] == 0.0f) vertex.skin.joints[1] = 0;
       primitive.vertices.push_back(vertex);
     }
@@ -85,7 +87,8 @@ inline RawAsset tubeTemplate() {
 
 /// An outfit: the template's body with the faces for which `keep(region, face)` holds, and a garment
 /// "garment.tunic" of one band around the torso.
-inline RawAsset tubeOutfit(const std::function<bool(int region, int face)>& keep, float garment_radius = 0.23f) {
+inline RawAsset tubeOutfit(const std::function<bool(int region, int face)>& keep,
+                           float garment_radius = 0.23f) {
   RawAsset asset = tubeTemplate();
   asset.clips.clear();
   for (int r = 0; r < 3; ++r) {
