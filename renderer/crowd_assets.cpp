@@ -10,6 +10,7 @@
 
 #include "core/check.h"
 #include "core/input_error.h"
+#include "renderer/garment_parts.h"
 #include "renderer/tints.h"
 #include "shaders/shared/vertex.h"
 
@@ -110,6 +111,7 @@ class CrowdAssets::Builder {
     material.tint_count = range.count;
     material.tint_spread = range.spread;
     material.sheen = range.sheen;
+    material.lower_tint_count = range.lower_count;
     return material;
   }
 
@@ -135,7 +137,24 @@ class CrowdAssets::Builder {
       }
       chunk.push_back(vertex);
     }
+    packParts(w, id, std::span(chunk).last(mesh.vertices.size()));
     return *placed[id.value];
+  }
+
+  /// Writes each vertex's garment part above its first joint; the body is all part 0.
+  void packParts(std::uint32_t w, MeshId id, std::span<GpuVertex> vertices) {
+    std::vector<std::uint32_t> indices;
+    for (const SubMesh& sub_mesh : lists(w).sub_meshes) {
+      const IndexList& list = lists(w).index_lists[sub_mesh.list];
+      if (list.mesh != id || sub_mesh.kind != SubMeshKind::kGarment) continue;
+      indices.insert(indices.end(), list.indices.begin(), list.indices.end());
+    }
+    const std::vector<std::uint8_t> parts = garmentParts(vertices, indices);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      std::uint16_t& joint = vertices[i].joints[0];
+      ENSEMBLE_CHECK(joint < (1u << ENSEMBLE_JOINT_BITS));
+      joint = static_cast<std::uint16_t>(joint | parts[i] << ENSEMBLE_JOINT_BITS);
+    }
   }
 
   /// The chunk that takes `count` more indices of a width: the last of that width, or a new one.

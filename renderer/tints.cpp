@@ -20,12 +20,15 @@ constexpr std::array<Hex, 12> kHair = {0x1c1613, 0x241b16, 0x2c2019, 0x38271c, 0
                                        0x6b4a2d, 0x8a6238, 0xa98052, 0x6e3b22, 0x8d8681, 0x4a4644};
 constexpr std::array<Hex, 10> kShoes = {0x1b1a1c, 0x242325, 0x2f2723, 0x4a3224, 0x6a4a33,
                                         0x8b6a4c, 0xd9d6cf, 0xb9b4ab, 0x39424f, 0x5a5c60};
-// Neutrals and denims first, then muted colours, and a few strong ones.
-constexpr std::array<Hex, 40> kCloth = {
-    0xe4e0d6, 0xcfc8ba, 0xb5aa97, 0x8f8578, 0x6d6a68, 0x4b4c50, 0x35363b, 0x26272c, 0xd8d9dc, 0x9ba0a6,
-    0x2b3a55, 0x34496b, 0x4a6287, 0x6580a3, 0x8fa6c0, 0x243049, 0x5c6f7e, 0x7f95a0, 0xb9c8d3, 0x3a5560,
-    0x6b6f4a, 0x59623f, 0x7d8560, 0x4a5443, 0x9aa27f, 0x8a6e4f, 0xa58a66, 0x6f5240, 0xc1a883, 0x5a4335,
-    0x7c3238, 0x96484a, 0xb5605a, 0xc98a7a, 0xd9b2a6, 0x6d4a63, 0xc69a3f, 0xa9702f, 0x2f6a63, 0xc0553b};
+// Denims, neutrals, khakis and browns first, then whites, muted colours, and a few strong ones.
+constexpr std::array<Hex, 46> kCloth = {
+    0x2b3a55, 0x34496b, 0x4a6287, 0x243049, 0x3d4f6e, 0x5c6f8e, 0x26272c, 0x35363b, 0x4b4c50, 0x6d6a68,
+    0x1f2126, 0x8f8578, 0xb5aa97, 0xa58a66, 0x8a6e4f, 0x5a4335, 0x6f5240, 0x59623f, 0x4a5443, 0x6b6f4a,
+    0xcfc8ba, 0x3a3f47, 0x2e3b52, 0x7b7466, 0xe4e0d6, 0xf0eee8, 0xd8d9dc, 0x9ba0a6, 0xb9c8d3, 0x8fa6c0,
+    0x7f95a0, 0x6580a3, 0x9aa27f, 0xc1a883, 0x7c3238, 0x96484a, 0xb5605a, 0xc98a7a, 0x6d4a63, 0xc69a3f,
+    0xa9702f, 0x2f6a63, 0x3a5560, 0xc0553b, 0xe9e4d4, 0x2c4f86};
+// Of these, what trousers are made of.
+constexpr std::uint32_t kLowerCloth = 24;
 
 struct KindColors {
   TintKind kind;
@@ -47,7 +50,11 @@ const std::array<KindColors, 4>& kinds() {
          {.strength = 1.0f, .textured_strength = 0.5f, .spread = 0.10f, .sheen = 0.03f}},
         {TintKind::kCloth,
          kCloth,
-         {.strength = 1.0f, .textured_strength = 0.6f, .spread = 0.14f, .sheen = 0.05f}},
+         {.lower_count = kLowerCloth,
+          .strength = 1.0f,
+          .textured_strength = 0.6f,
+          .spread = 0.14f,
+          .sheen = 0.05f}},
     }};
     std::uint32_t first = 0;
     for (KindColors& entry : table) {

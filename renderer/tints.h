@@ -19,6 +19,7 @@ TintKind tintKindOf(std::string_view material_name, bool is_body);
 /// The colours of a kind, in `tintTable()`.
 struct TintRange {
   std::uint32_t first = 0, count = 0;
+  std::uint32_t lower_count = 0;   ///< of these, for trousers under a shirt; 0: parts are not told apart
   float strength = 0.0f;           ///< how far a tint replaces a plain material's colour, 0 .. 1
   float textured_strength = 0.0f;  ///< the same under a texture, which has colours of its own
   float spread = 0.0f;             ///< brightness varies by +- this part

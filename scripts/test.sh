@@ -29,7 +29,7 @@ passed=0 failed=0 skipped=0
 
 # runTests FOLDER CTEST_OPTION...: runs the tests built in FOLDER and adds up what they say.
 runTests() {
-  local build=$1 results=$1/test-results.xml counts
+  local build=$1 results=$1/test-results.xml counts p f s
   shift
   rm -f "$results"
   # A failed test is counted below; a ctest that wrote no results at all is an error.
@@ -43,14 +43,14 @@ runTests() {
 "$project/scripts/install_packages.sh" build test
 if [ -n "$sanitize" ]; then
   "$project/scripts/build.sh" "${build_options[@]}" --sanitize "$sanitize"
-  runTests "$project/build-${sanitize//,/-}" -LE 'proof|full'
+  runTests "$project/build-${sanitize//,/-}" -LE 'proof|full|lint'
 else
   "$project/scripts/build.sh" "${build_options[@]}"
   "$project/tests/proofs/install_node_packages.sh" "$project/build/proofs"
   if [ $full = yes ]; then
     runTests "$project/build"
     "$project/scripts/build.sh" "${build_options[@]}" --sanitize address,undefined
-    runTests "$project/build-address-undefined" -LE 'proof|full'
+    runTests "$project/build-address-undefined" -LE 'proof|full|lint'
   else
     runTests "$project/build" -LE full
   fi

@@ -16,7 +16,7 @@ layout(location = ENSEMBLE_AOV_DEPTH) out float depth;
 layout(location = ENSEMBLE_AOV_NORMAL) out vec4 normal;
 
 void main() {
-  GpuDraw draw_data = draws[who.y];
+  GpuDraw draw_data = draws[drawNumber(who.y)];
   if (kCutOut) baseColor(materials[draw_data.material], vec2(normal_u.w, world_v.w));
   character = 1u + characters[who.x].number;
   region = draw_data.region;

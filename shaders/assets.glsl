@@ -40,11 +40,13 @@ uint hashBits(uint x) {
   return (word >> 22) ^ word;
 }
 
-// What a person's tint does to a material's colour.
-vec3 tinted(vec3 color, GpuMaterial material, uint tint_seed) {
+// What a person's tint does to a material's colour. A suit's parts have tints of their own.
+vec3 tinted(vec3 color, GpuMaterial material, uint tint_seed, uint part) {
   if (material.tint_count == 0u) return color;
-  uint h = hashBits(tint_seed ^ material.tint_key);
-  vec3 tint = tints[material.tint_first + h % material.tint_count].rgb * material.tint.rgb;
+  bool is_lower = part != 0u && material.lower_tint_count != 0u;
+  uint count = is_lower ? material.lower_tint_count : material.tint_count;
+  uint h = hashBits(tint_seed ^ (material.tint_key + (is_lower ? part * 0x9e3779b9u : 0u)));
+  vec3 tint = tints[material.tint_first + h % count].rgb * material.tint.rgb;
   float brightness = 1.0 + material.tint_spread * (float(hashBits(h) >> 8) * (2.0 / 16777216.0) - 1.0);
   return color * mix(vec3(1.0), tint * brightness, material.tint.a);
 }

@@ -13,9 +13,9 @@ layout(location = 2) flat in uvec2 who;
 layout(location = 0) out vec4 color;
 
 void main() {
-  GpuMaterial material = materials[draws[who.y].material];
+  GpuMaterial material = materials[draws[drawNumber(who.y)].material];
   vec3 albedo = baseColor(material, vec2(normal_u.w, world_v.w)).rgb;
-  albedo = tinted(albedo, material, characters[who.x].tint_seed);
+  albedo = tinted(albedo, material, characters[who.x].tint_seed, who.y >> ENSEMBLE_DRAW_BITS);
 
   vec3 normal = normalize(gl_FrontFacing ? normal_u.xyz : -normal_u.xyz);
   vec3 from_camera = world_v.xyz - view.camera.xyz;

@@ -14,4 +14,7 @@ layout(set = ENSEMBLE_SET_CROWD, binding = ENSEMBLE_BINDING_DRAWS, std430) reado
   GpuDraw draws[];
 };
 
+// The draw in what crowd.vert passes on.
+uint drawNumber(uint draw_and_part) { return draw_and_part & ((1u << ENSEMBLE_DRAW_BITS) - 1u); }
+
 layout(push_constant) uniform Push { uint first_draw; };

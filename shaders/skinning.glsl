@@ -12,7 +12,7 @@ struct WorldFromModel {
 // The pose pass has multiplied world_from_model into the palette already. Four joints always: where
 // a shader runs on the CPU a branch is a mask, and skipping a joint of weight 0 saves nothing.
 WorldFromModel blendedJoints(uint first_joint) {
-  uvec4 at = (uvec4(first_joint) + joints) * 3u;
+  uvec4 at = (uvec4(first_joint) + (joints & ((1u << ENSEMBLE_JOINT_BITS) - 1u))) * 3u;
   precise WorldFromModel m;
   m.row_0 = texelFetch(palette, int(at.x)) * weights.x + texelFetch(palette, int(at.y)) * weights.y + texelFetch(palette, int(at.z)) * weights.z +
             texelFetch(palette, int(at.w)) * weights.w;

@@ -56,6 +56,11 @@
 
 #define ENSEMBLE_POST_GROUP 8
 
+// On the device a vertex's first joint has the number of its garment part in the bits from here on.
+#define ENSEMBLE_JOINT_BITS 13
+// Where a draw's number goes on to fragments the part follows from this bit on.
+#define ENSEMBLE_DRAW_BITS 24
+
 #ifdef __cplusplus
 #include <cstddef>
 #include <cstdint>
@@ -105,9 +110,9 @@ struct GpuMaterial {
   uint tint_key;  ///< hashed with a person's tint seed
   uint texture_layer;
   float alpha_cutoff;
-  float tint_spread;  ///< brightness varies by +- this part
-  float sheen;        ///< strength of the light along silhouettes
-  float unused_0;
+  float tint_spread;      ///< brightness varies by +- this part
+  float sheen;            ///< strength of the light along silhouettes
+  uint lower_tint_count;  ///< of these, for all parts but the topmost; 0: parts are not told apart
 };
 
 /// One view's constants, std140.

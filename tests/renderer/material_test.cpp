@@ -5,6 +5,7 @@
 #include <set>
 
 #include "renderer/animation.h"
+#include "renderer/garment_parts.h"
 #include "renderer/mip_chain.h"
 #include "renderer/tints.h"
 #include "tests/renderer/test_wardrobe.h"
@@ -86,6 +87,41 @@ TEST(Tints, SkinIsOneColourAndGarmentsAreNot) {
   EXPECT_EQ(tintKey(TintKind::kSkin, "head"), tintKey(TintKind::kSkin, "hands"));
   EXPECT_NE(tintKey(TintKind::kCloth, "shirt"), tintKey(TintKind::kCloth, "trousers"));
   EXPECT_NE(tintKey(TintKind::kSkin, ""), tintKey(TintKind::kHair, ""));
+}
+
+/// Bands of a tube one above the other, as one mesh.
+std::vector<std::uint8_t> partsOfBands(std::span<const std::array<float, 2>> bands) {
+  std::vector<GpuVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  for (const auto& [bottom, top] : bands) {
+    const RawPrimitive band = testing::tubeBand(0, 0.2f + 0.01f * bottom, bottom, top, 3);
+    for (const Triangle& face : band.faces) {
+      for (const std::uint32_t corner : face)
+        indices.push_back(corner + static_cast<std::uint32_t>(vertices.size()));
+    }
+    for (const RawVertex& vertex : band.vertices) vertices.push_back(packVertex(vertex));
+  }
+  const std::vector<std::uint8_t> per_vertex = garmentParts(vertices, indices);
+  std::vector<std::uint8_t> per_band;
+  const std::size_t band_size = vertices.size() / bands.size();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (i % band_size == 0) per_band.push_back(per_vertex[i]);
+    EXPECT_EQ(per_vertex[i], per_band.back()) << "a band is of one part";
+  }
+  return per_band;
+}
+
+TEST(GarmentParts, AShirtAndTrousersAreTwoAndABeltIsOfTheTrousers) {
+  const std::vector<std::array<float, 2>> bands = {
+      {0.1f, 0.99f}, {0.88f, 1.5f}, {0.81f, 0.86f}, {0.9f, 1.3f}};
+  EXPECT_THAT(partsOfBands(bands), ElementsAre(1, 0, 1, 0));
+}
+
+TEST(GarmentParts, TooManyShareTheLastNumber) {
+  std::vector<std::array<float, 2>> bands;
+  for (int i = 0; i < 10; ++i)
+    bands.push_back({1.0f - 0.1f * static_cast<float>(i), 1.05f - 0.1f * static_cast<float>(i)});
+  EXPECT_THAT(partsOfBands(bands), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 7, 7));
 }
 
 TEST(PhaseAt, WrapsInBothDirectionsAndAfterDays) {

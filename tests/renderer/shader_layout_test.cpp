@@ -97,6 +97,7 @@ TEST(ShaderLayout, DrawsAndMaterials) {
   EXPECT_EQ(material.at("alpha_cutoff"), offsetof(GpuMaterial, alpha_cutoff));
   EXPECT_EQ(material.at("tint_spread"), offsetof(GpuMaterial, tint_spread));
   EXPECT_EQ(material.at("sheen"), offsetof(GpuMaterial, sheen));
+  EXPECT_EQ(material.at("lower_tint_count"), offsetof(GpuMaterial, lower_tint_count));
   EXPECT_EQ(shader.strides.at("GpuMaterial"), sizeof(GpuMaterial));
 }
 
