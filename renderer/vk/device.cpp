@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <string_view>
 
 #include "core/input_error.h"
 
@@ -115,7 +116,8 @@ std::optional<vk::raii::PhysicalDevice> bestDevice(const vk::raii::Instance& ins
 }  // namespace
 
 void throwVulkanError(vk::Result result, const char* call, const char* file, int line) {
-  throw VulkanError(result, fmt::format("{}: {} ({}:{})", call, vk::to_string(result), file, line));
+  const std::string_view name = std::string_view(call).substr(0, std::string_view(call).find('('));
+  throw VulkanError(result, fmt::format("{}: {} ({}:{})", name, vk::to_string(result), file, line));
 }
 
 std::string describeBytes(std::uint64_t bytes) {
@@ -157,7 +159,8 @@ void Device::createInstance() {
   try {
     instance_ = makeInstance(context_, options_.validate);
   } catch (const VulkanError& error) {
-    throwNoDevice(error.what());
+    throwNoDevice(error.result() == vk::Result::eErrorIncompatibleDriver ? "there is no Vulkan driver"
+                                                                         : error.what());
   }
   if (!options_.validate) return;
   using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;

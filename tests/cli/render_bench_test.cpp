@@ -1,0 +1,189 @@
+// `ensemble render` and `ensemble bench` as a user runs them, on the kept wardrobe of version 1.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_program.h"
+
+namespace ensemble {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+using ::testing::StartsWith;
+
+class RenderCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream scene(folder_ / "scene.yaml");
+    scene << "version: 1\nwardrobe: " << fs::absolute("tests/formats/wardrobe-1").string()
+          << "\noutput: {width: 96, height: 64, samples: 4, frames: 4, fps: 10}\n"
+             "crowd: {count: 6, seed: 3, placement: {spacing: 1.0}}\n"
+             "camera: {position: [0, 1.6, 5], target: [0, 0.9, 0]}\n";
+  }
+  ProgramResult run(const std::string& arguments) { return testing::runProgram(arguments, folder_.path()); }
+  static bool hasDevice() {
+    const ProgramResult version = testing::runProgram("--version", ".");
+    return version.out.find("Vulkan device: none") == std::string::npos;
+  }
+  nlohmann::json json(const std::string& file) {
+    return nlohmann::json::parse(std::ifstream(folder_ / file));
+  }
+  std::string bytes(const std::string& file) {
+    std::ifstream stream(folder_ / file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(RenderCommand, WritesFramesAndFigures) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const ProgramResult result = run("render scene.yaml -o frames/ --json figures.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "no bar where standard error is no terminal";
+  const nlohmann::json figures = json("figures.json");
+  EXPECT_EQ(figures["schema"], "ensemble.render/1");
+  EXPECT_FALSE(figures["device"].get<std::string>().empty());
+  ASSERT_EQ(figures["frames"].size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    const nlohmann::json& frame = figures["frames"][i];
+    EXPECT_EQ(frame["index"], i);
+    EXPECT_EQ(frame["file"], "frames/frame_000" + std::to_string(i) + ".png");
+    EXPECT_THAT(bytes(frame["file"]), StartsWith("\x89PNG"));
+    EXPECT_EQ(frame["characters_drawn"], 6);
+    EXPECT_GT(frame["frame_ms"], 0.0);
+    EXPECT_GT(frame["vertex_invocations"], 0);
+    EXPECT_EQ(frame["triangles"], frame["passes"]["main"]["triangles"].get<int>() +
+                                      frame["passes"]["shadow"]["triangles"].get<int>());
+    EXPECT_GT(frame["draw_calls"], 0);
+  }
+}
+
+TEST_F(RenderCommand, AFrameIsTheSameAloneAndInAnyOrder) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  ASSERT_EQ(run("render scene.yaml -o all/").exit_code, 0);
+  ASSERT_EQ(run("render scene.yaml -o some/ --frames 3,1-2,3").exit_code, 0);
+  ASSERT_EQ(run("render scene.yaml -o one.png --frames 2").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "some" / "frame_0000.png"));
+  for (const char* name : {"/frame_0001.png", "/frame_0002.png", "/frame_0003.png"}) {
+    EXPECT_EQ(bytes(std::string("all") + name), bytes(std::string("some") + name)) << name;
+  }
+  EXPECT_EQ(bytes("one.png"), bytes("all/frame_0002.png"));
+  EXPECT_NE(bytes("all/frame_0001.png"), bytes("all/frame_0002.png"));
+}
+
+TEST_F(RenderCommand, AovsAreExplained) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const ProgramResult result = run("render scene.yaml -o one.png --frames 0 --aov character,normal");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(folder_ / "one.character.exr"));
+  EXPECT_TRUE(fs::exists(folder_ / "one.normal.exr"));
+  EXPECT_FALSE(fs::exists(folder_ / "one.depth.exr"));
+  const nlohmann::json ids = json("one.ids.json");
+  EXPECT_EQ(ids["schema"], "ensemble.ids/1");
+  ASSERT_EQ(ids["characters"].size(), 6u);
+  EXPECT_EQ(ids["characters"][5]["number"], 6);
+  EXPECT_EQ(ids["characters"][5]["outfit"], "tunic");
+  EXPECT_EQ(ids["characters"][5]["clip"], "sway");
+  EXPECT_EQ(ids["regions"][2]["number"], 3);
+  EXPECT_EQ(ids["regions"][2]["name"], "head");
+  EXPECT_EQ(ids["garments"][0]["number"], 4);
+  EXPECT_EQ(ids["garments"][0]["name"], "garment.tunic");
+  EXPECT_EQ(ids["outfits"][0]["garments"][0], 4);
+}
+
+TEST_F(RenderCommand, WithoutADeviceOneLineTellsHowToMend) {
+  const ProgramResult result = testing::runProgram("--version", folder_.path());
+  ASSERT_EQ(result.exit_code, 0);
+  setenv("VK_ICD_FILENAMES", "/nowhere", 1);
+  setenv("VK_DRIVER_FILES", "/nowhere", 1);
+  const ProgramResult render = run("render scene.yaml -o one.png --frames 0");
+  const ProgramResult version = run("--version");
+  unsetenv("VK_ICD_FILENAMES");
+  unsetenv("VK_DRIVER_FILES");
+  EXPECT_EQ(render.exit_code, 1);
+  EXPECT_EQ(render.err,
+            "ensemble: Vulkan: there is no Vulkan driver; install a Vulkan 1.3 driver, e.g. apt install "
+            "mesa-vulkan-drivers\n");
+  EXPECT_FALSE(fs::exists(folder_ / "one.png"));
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, HasSubstr("Vulkan device: none"));
+}
+
+TEST_F(RenderCommand, APictureThatDoesNotFitIsRefusedWithItsSize) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const ProgramResult result =
+      run("render scene.yaml -o one.png --frames 0 --set output.width=16384 --set output.height=16384");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("a picture of 16384 x 16384 pixels of 8.00 GiB does not fit"));
+}
+
+TEST_F(RenderCommand, WrongUsageIsRefused) {
+  const auto frames = [](const std::string& part) {
+    return "ensemble: --frames: '" + part +
+           "' is no frame and no range of frames; write numbers and ranges A-B from 0 to 999999, parted by "
+           "commas: "
+           "0-9,20\n";
+  };
+  for (const char* part : {"3-1", "x", "", "1-", "-1", "1000000", "4294967296", "1-2-3"}) {
+    const ProgramResult result = run("render scene.yaml -o frames/ --frames 0,'" + std::string(part) + "'");
+    EXPECT_EQ(result.exit_code, 2) << part;
+    EXPECT_EQ(result.err, frames(part));
+  }
+  EXPECT_EQ(run("render scene.yaml").exit_code, 2) << "-o is missing";
+  EXPECT_EQ(run("render scene.yaml -o one.png --frames 0 --aov depth,colour").exit_code, 2);
+  EXPECT_EQ(run("render nowhere.yaml -o one.png").exit_code, 3);
+}
+
+TEST_F(RenderCommand, ValidationIsClean) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const ProgramResult result =
+      run("render scene.yaml -o one.png --frames 1 --aov character,region,face,depth,normal --validate");
+  if (result.err.find("the validation layer is not installed") != std::string::npos)
+    GTEST_SKIP() << result.err;
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(RenderCommand, BenchComparesTechniques) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const ProgramResult result = run("bench scene.yaml --counts 3,9 --rounds 2 --json bench.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("technique "));
+  EXPECT_THAT(result.out, HasSubstr("tagged / naive, 9 people: "));
+  const nlohmann::json bench = json("bench.json");
+  EXPECT_EQ(bench["schema"], "ensemble.bench/1");
+  EXPECT_EQ(bench["width"], 96);
+  EXPECT_EQ(bench["height"], 64);
+  ASSERT_EQ(bench["rows"].size(), 6u);
+  ASSERT_EQ(bench["ratios"].size(), 4u);
+  for (const nlohmann::json& row : bench["rows"]) {
+    EXPECT_EQ(row["rounds"], 2);
+    EXPECT_LE(row["frame_ms"]["min"], row["frame_ms"]["median"]);
+    EXPECT_LE(row["frame_ms"]["median"], row["frame_ms"]["max"]);
+    EXPECT_GT(row["gpu_mesh_bytes"], 0);
+  }
+  const nlohmann::json &naive = bench["rows"][3], &prefitted = bench["rows"][4], &tagged = bench["rows"][5];
+  EXPECT_EQ(naive["technique"], "naive");
+  EXPECT_EQ(naive["characters"], 9);
+  EXPECT_EQ(tagged["triangles"], prefitted["triangles"]);
+  EXPECT_LT(tagged["triangles"], naive["triangles"]);
+  EXPECT_LT(tagged["vertex_invocations"], naive["vertex_invocations"]);
+}
+
+TEST_F(RenderCommand, BenchRefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(run("bench scene.yaml --techniques naive,taged").err,
+            "ensemble: --techniques: unknown technique 'taged'; choose from naive,prefitted,tagged\n");
+  const ProgramResult counts = run("bench scene.yaml --counts 10,0");
+  EXPECT_EQ(counts.exit_code, 2);
+  EXPECT_EQ(
+      counts.err,
+      "ensemble: --counts: '0' is no number of people; write numbers parted by commas, e.g. 100,1000\n");
+  EXPECT_EQ(run("bench scene.yaml --rounds 0").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace ensemble
