@@ -8,25 +8,15 @@
 #include "core/image_file.h"
 #include "core/input_error.h"
 #include "tests/core/glb_builder.h"
+#include "tests/core/gltf_refusal.h"
 
 namespace ensemble {
 namespace {
 
+using testing::refusal;
 using testing::skinnedGlb;
 using testing::TestGlb;
 using testing::triangleGlb;
-
-std::string refusal(const std::vector<std::byte>& bytes, const GltfReadOptions& options = {}) {
-  try {
-    readGlb(bytes, "x.glb", options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-std::string refusal(const TestGlb& glb, const GltfReadOptions& options = {}) {
-  return refusal(glb.bytes(), options);
-}
 
 // Meshes.
 

@@ -8,25 +8,15 @@
 #include "core/gltf_file.h"
 #include "core/input_error.h"
 #include "tests/core/glb_builder.h"
+#include "tests/core/gltf_refusal.h"
 
 namespace ensemble {
 namespace {
 
+using testing::refusal;
 using testing::skinnedGlb;
 using testing::TestGlb;
 using testing::triangleGlb;
-
-std::string refusal(const std::vector<std::byte>& bytes, const GltfReadOptions& options = {}) {
-  try {
-    readGlb(bytes, "x.glb", options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-std::string refusal(const TestGlb& glb, const GltfReadOptions& options = {}) {
-  return refusal(glb.bytes(), options);
-}
 
 void putWord(std::vector<std::byte>& bytes, std::size_t offset, std::uint32_t value) {
   std::memcpy(bytes.data() + offset, &value, 4);
