@@ -15,19 +15,14 @@
 #include "assetpipe/people_clips.h"
 #include "core/clip.h"
 #include "core/gltf_file.h"
+#include "tests/assetpipe/person_config.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ensemble {
 namespace {
 
-PersonConfig configOf(Sex sex) {
-  PersonConfig config;
-  config.name = sex == Sex::kFemale ? "woman" : "man";
-  config.figure = {sex, sex == Sex::kFemale ? 1.67f : 1.79f, 0.0f};
-  config.seed = 3;
-  return config;
-}
+using testing::configOf;
 
 /// Their bodies, made once a process.
 const RawAsset& templatePerson(Sex sex) {

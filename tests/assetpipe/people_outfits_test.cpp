@@ -13,17 +13,12 @@
 
 #include "assetpipe/make_people.h"
 #include "core/clip.h"
+#include "tests/assetpipe/person_config.h"
 
 namespace ensemble {
 namespace {
 
-PersonConfig configOf(Sex sex) {
-  PersonConfig config;
-  config.name = sex == Sex::kFemale ? "woman" : "man";
-  config.figure = {sex, sex == Sex::kFemale ? 1.67f : 1.79f, 0.0f};
-  config.seed = 3;
-  return config;
-}
+using testing::configOf;
 
 class EachWardrobe : public ::testing::TestWithParam<Sex> {};
 INSTANTIATE_TEST_SUITE_P(People, EachWardrobe, ::testing::Values(Sex::kFemale, Sex::kMale),
