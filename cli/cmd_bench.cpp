@@ -149,6 +149,7 @@ Json toJson(const Row& row) {
   return {{"technique", toString(row.technique)},
           {"characters", row.characters},
           {"characters_drawn", row.stats.characters_drawn},
+          {"characters_posed", row.stats.characters_posed},
           {"rounds", row.frame_ms.size()},
           {"frame_ms", {{"min", *least}, {"median", median(row.frame_ms)}, {"max", *most}}},
           {"cpu_ms", median(row.cpu_ms)},

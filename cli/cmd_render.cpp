@@ -39,6 +39,7 @@ Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stat
           {"frame_ms", stats.frame_ms},
           {"cpu_ms", stats.cpu_ms},
           {"characters_drawn", stats.characters_drawn},
+          {"characters_posed", stats.characters_posed},
           {"draw_calls", stats.drawCalls()},
           {"vertex_invocations", orNull(stats.vertexInvocations())},
           {"triangles", stats.triangles()},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "core/input_error.h"
@@ -16,7 +17,8 @@ constexpr std::uint64_t kJointBytes = 3 * sizeof(vec4);
 
 constexpr std::initializer_list<vk::DescriptorType> kPoseBindings = {
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-    vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eCombinedImageSampler};
+    vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eCombinedImageSampler,
+    vk::DescriptorType::eStorageBuffer};
 
 }  // namespace
 
@@ -66,6 +68,7 @@ void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std
     character.first_joint = static_cast<std::uint32_t>(joints);
     joints += own_joints;
     ++chunks_.back().count;
+    chunk_of_.push_back(static_cast<std::uint32_t>(chunks_.size() - 1));
   }
   for (CrowdChunk& chunk : chunks_) {
     const GpuCharacter& last = characters_[chunk.first + chunk.count - 1];
@@ -80,6 +83,9 @@ void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std
         gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
                     gpu::Buffer::Kind::kDevice, fmt::format("the poses of {} people", chunk.count));
     chunk.palette_view = chunk.palette.makeTexelView(device);
+    chunk.pose_queue =
+        gpu::Buffer(device, chunk.count * sizeof(std::uint32_t), Usage::eStorageBuffer,
+                    gpu::Buffer::Kind::kUpload, fmt::format("the pose queue of {} people", chunk.count));
   }
 }
 
@@ -93,6 +99,7 @@ void CrowdState::createPipeline(gpu::Device& device) {
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_CLIPS, clips_);
     gpu::writeImage(device, sets_[i], ENSEMBLE_BINDING_POSE_ANIMATION, texture_, &sampler_,
                     vk::ImageLayout::eShaderReadOnlyOptimal);
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_QUEUE, chunks_[i].pose_queue);
   }
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(std::uint32_t)};
@@ -117,18 +124,34 @@ void CrowdState::setTime(double seconds) {
       mapped[i].phase = phaseAt(seconds, playing.clip_seconds, playing.phase, playing.speed);
     }
   }
+  has_pose_.assign(characters_.size(), 0);
+  for (CrowdChunk& chunk : chunks_) chunk.pose_queue_length = 0;
 }
 
-void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) const {
+std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people) {
+  std::uint32_t queued = 0;
+  for (const std::uint32_t person : people) {
+    if (has_pose_[person] != 0) continue;
+    has_pose_[person] = 1;
+    CrowdChunk& chunk = chunks_[chunk_of_[person]];
+    chunk.pose_queue.mapped<std::uint32_t>()[chunk.pose_queue_length++] = person - chunk.first;
+    ++queued;
+  }
+  return queued;
+}
+
+void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) {
   using Stage = vk::PipelineStageFlagBits2;
   // The last frame's vertex shaders may still be reading what is overwritten here.
   gpu::recordBarrier(commands, Stage::eVertexShader, {}, Stage::eComputeShader, {});
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    const std::uint32_t queued = std::exchange(chunks_[i].pose_queue_length, 0u);
+    if (queued == 0) continue;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets_[i], nullptr);
-    commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, chunks_[i].count);
+    commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, queued);
     constexpr std::uint32_t kGroupsX = ENSEMBLE_POSE_GROUPS_X;
-    commands.dispatch(std::min(chunks_[i].count, kGroupsX), (chunks_[i].count + kGroupsX - 1) / kGroupsX, 1);
+    commands.dispatch(std::min(queued, kGroupsX), (queued + kGroupsX - 1) / kGroupsX, 1);
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
                      Stage::eVertexShader, vk::AccessFlagBits2::eShaderSampledRead);

@@ -19,6 +19,8 @@ struct CrowdChunk {
   gpu::Buffer characters;              ///< GpuCharacter, mapped
   gpu::Buffer palette;                 ///< world_from_model * skinning matrix, three rows a joint
   vk::raii::BufferView palette_view = nullptr;
+  gpu::Buffer pose_queue;  ///< numbers in the chunk of those whose poses are to be computed, mapped
+  std::uint32_t pose_queue_length = 0;
 };
 
 class CrowdState {
@@ -33,10 +35,15 @@ class CrowdState {
   const std::vector<Sphere>& bounds() const { return bounds_; }
   std::uint32_t characterCount() const { return static_cast<std::uint32_t>(characters_.size()); }
 
-  /// Brings phases to a time. The device must not be reading the characters.
+  /// Brings phases to a time, at which nobody has a pose yet. The device must not be reading the
+  /// characters.
   void setTime(double seconds);
-  /// Records the pose pass: fills the palettes, readable by vertex shaders afterwards.
-  void recordPoses(const vk::raii::CommandBuffer& commands) const;
+  /// Queues those of `people` (numbers in the crowd) who have no pose at this time, and says how many
+  /// they were. The device must be done with the pose pass before.
+  std::uint32_t queuePoses(std::span<const std::uint32_t> people);
+  /// Records the pose pass: fills the palettes of those queued, readable by vertex shaders
+  /// afterwards, and empties the queues.
+  void recordPoses(const vk::raii::CommandBuffer& commands);
 
  private:
   void makeCharacters(const Crowd& crowd, const Animation& animation);
@@ -50,7 +57,9 @@ class CrowdState {
     float clip_seconds, phase, speed;
   };
   std::vector<Playing> playing_;
+  std::vector<std::uint8_t> has_pose_;  // per person, at this time
   std::vector<CrowdChunk> chunks_;
+  std::vector<std::uint32_t> chunk_of_;  // per person
 
   gpu::Image texture_;
   gpu::Buffer clips_;

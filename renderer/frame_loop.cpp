@@ -116,7 +116,8 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
     Slot& slot = slotFor(view, fit.size);
     buildQueues(view, fit);
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, fit);
-    record(view, slot, i == 0);
+    picture.stats.characters_posed = state_.queuePoses(visible_) + state_.queuePoses(casters_);
+    record(view, slot);
     picture.stats.cpu_ms = millisecondsSince(start);
     submitAndWait();
     readColor(slot.targets.readback, view, picture.color);
@@ -166,10 +167,10 @@ void FrameLoop::buildQueues(const View& view, const ShadowFit& fit) {
   shadow_queues_.build(assets_, state_, casters_);
 }
 
-void FrameLoop::record(const View& view, const Slot& slot, bool with_poses) {
+void FrameLoop::record(const View& view, const Slot& slot) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   counter_.reset(commands_);
-  if (with_poses) state_.recordPoses(commands_);
+  state_.recordPoses(commands_);
   CrowdDraw draw{
       .assets = &assets_, .layout = &layout_, .queues = &shadow_queues_, .view_set = slot.view_set[0]};
   shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow);

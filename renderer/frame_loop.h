@@ -36,7 +36,7 @@ class FrameLoop {
 
   Slot& slotFor(const View& view, std::uint32_t shadow_size);
   void buildQueues(const View& view, const ShadowFit& fit);
-  void record(const View& view, const Slot& slot, bool with_poses);
+  void record(const View& view, const Slot& slot);
   void recordAovs(const View& view, const Slot& slot);
   void submitAndWait();
   void readStats(const View& view, FrameStats& stats) const;

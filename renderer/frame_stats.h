@@ -15,6 +15,7 @@ struct PassStats {
 
 struct FrameStats {
   std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
+  std::uint32_t characters_posed = 0;  ///< people whose poses this view needed first at its time
   PassStats shadow;                    ///< the shadow map
   PassStats main;                      ///< the picture
   std::uint64_t gpu_mesh_bytes = 0;    ///< vertices and indices of all meshes

@@ -1,5 +1,5 @@
-// The palette of this frame: world_from_model * skinning matrix of every joint of every person,
-// read from the animation texture between two keys. Done once for all passes and views.
+// The palette of this frame: world_from_model * skinning matrix of every joint of the queued people,
+// read from the animation texture between two keys. Done once a person for all passes and views.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/crowd_types.h"
@@ -12,8 +12,9 @@ layout(set = 0, binding = ENSEMBLE_BINDING_POSE_CHARACTERS, std430) readonly buf
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_PALETTE, std430) writeonly buffer Palette { vec4 palette[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_CLIPS, std430) readonly buffer Clips { GpuClip clips[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_ANIMATION) uniform sampler2D animation;
+layout(set = 0, binding = ENSEMBLE_BINDING_POSE_QUEUE, std430) readonly buffer Queue { uint queue[]; };
 
-layout(push_constant) uniform Push { uint character_count; };
+layout(push_constant) uniform Push { uint queue_length; };
 
 vec4 animationRow(uint matrix, uint row) {
   uint texel = matrix * 3u + row;
@@ -22,8 +23,8 @@ vec4 animationRow(uint matrix, uint row) {
 
 void main() {
   uint index = gl_WorkGroupID.y * ENSEMBLE_POSE_GROUPS_X + gl_WorkGroupID.x;
-  if (index >= character_count) return;
-  GpuCharacter character = characters[index];
+  if (index >= queue_length) return;
+  GpuCharacter character = characters[queue[index]];
   GpuClip clip = clips[character.clip];
   // The last key closes the loop: between key_count keys lie key_count - 1 intervals.
   float at = character.phase * float(clip.key_count - 1u);

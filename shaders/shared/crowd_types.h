@@ -29,6 +29,7 @@
 #define ENSEMBLE_BINDING_POSE_PALETTE 1
 #define ENSEMBLE_BINDING_POSE_CLIPS 2
 #define ENSEMBLE_BINDING_POSE_ANIMATION 3
+#define ENSEMBLE_BINDING_POSE_QUEUE 4
 
 // The post pass: the resolved linear picture in, the sRGB picture out.
 #define ENSEMBLE_BINDING_POST_LINEAR 0

@@ -38,6 +38,10 @@ TEST_F(GpuTest, TwoViewsInOneCallAreThoseOfTwoCalls) {
   const auto renderer = makeRenderer(scene);
   std::vector<Picture> together(views.size());
   renderer->render(views, 0.2, together);
+  std::uint32_t posed = 0;
+  for (const Picture& picture : together) posed += picture.stats.characters_posed;
+  EXPECT_LE(posed, scene.crowd.count) << "nobody is posed twice";
+  EXPECT_GE(together[0].stats.characters_posed, together[0].stats.characters_drawn);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Picture alone = draw(*renderer, views[i], 0.2);
     EXPECT_EQ(alone.color.rgba, together[i].color.rgba) << i;
@@ -125,6 +129,7 @@ TEST_F(GpuTest, PeopleOutOfSightAreNotDrawnAndChangeNothing) {
   scene.people.push_back(person(Vec3(60.0f, 0.0f, -10.0f)));
   const Picture crowded = drawScene(scene, view);
   EXPECT_EQ(crowded.stats.characters_drawn, 1u);
+  EXPECT_EQ(crowded.stats.characters_posed, 1u);
   EXPECT_EQ(crowded.color.rgba, alone.color.rgba);
 }
 
