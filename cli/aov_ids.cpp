@@ -79,10 +79,9 @@ nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> ward
   }
   ids["faces"] =
       "where region is a number in regions: 1 + the face's number in the wardrobe's template.glb, its "
-      "regions' "
-      "faces counted on in order; where it is a number in garments: 1 + the face's number in the garment, "
-      "its "
-      "parts counted on in order; 0: nobody";
+      "regions counted on in order, and after them 1 + the faces of the body that only the outfit has; "
+      "where it is a number in garments: 1 + the face's number in the garment, its parts counted on in "
+      "order; 0: nobody";
   ids["depth"] = "metres along the view axis; 0: nothing there";
   ids["normal"] = "unit vector in the world; 0, 0, 0: nothing there";
   return ids;

@@ -134,16 +134,19 @@ class ListsBuilder {
     }
   }
 
-  /// Body faces that only this outfit has are its geometry in every technique.
+  /// Body faces that only this outfit has are its geometry in every technique. Their numbers follow
+  /// the template's.
   void addExtraBody(std::size_t combination) {
     for (const ItemId item_id : lists_.combinations[combination]) {
       const Item& item = wardrobe_.items[item_id];
+      auto face_offset = static_cast<std::uint32_t>(body_.faces.size());
       for (const ExtraBodyPart& extra : item.extra_body) {
         if (extra.part.faces.empty()) continue;
         SubMesh sub_mesh{SubMeshKind::kBody, addPart(extra.part),
                          addMaterial(item.materials[extra.part.material], item.images, true),
-                         extra.region.value, 0};
+                         extra.region.value, face_offset};
         show(combination, sub_mesh, 1);
+        face_offset += static_cast<std::uint32_t>(extra.part.faces.size());
       }
     }
   }

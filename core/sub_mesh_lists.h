@@ -49,7 +49,8 @@ struct SubMesh {
   IndexListId list;
   std::uint32_t material = 0;  ///< index into SubMeshLists::materials
   std::uint32_t region = 0;    ///< kBody: RegionId; kGarment: index into garment_names
-  /// Added to the list's source_faces: a garment's faces are numbered through its parts.
+  /// Added to the list's source_faces: a garment's faces are numbered through its parts, and body
+  /// faces that only an outfit has follow the template's.
   std::uint32_t source_face_offset = 0;
 };
 

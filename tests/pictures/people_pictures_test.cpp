@@ -67,6 +67,7 @@ class PeoplePictures : public ::testing::TestWithParam<std::string> {
     const Character& person = crowd.characters[naive.character[pixel] - 1];
     const TemplateBody& body = wardrobes_[0].body;
     if (naive.region[pixel] == 0 || naive.region[pixel] > body.regions.size()) return false;
+    if (naive.face[pixel] > body.faces.size()) return false;  // geometry of the outfit
     const FaceId face(naive.face[pixel] - 1);
     EXPECT_EQ(body.region_of_face[face], RegionId(naive.region[pixel] - 1));
     const Combination& items = crowd.combinations[person.combination].items;

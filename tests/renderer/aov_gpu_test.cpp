@@ -72,7 +72,7 @@ TEST_F(AovTest, EveryPixelShowsTheFaceThatItNames) {
   const Wardrobe& wardrobe = wardrobes_[0];
   ASSERT_EQ(numbers.first_garment, 4u);
 
-  std::size_t body_pixels = 0, garment_pixels = 0;
+  std::size_t body_pixels = 0, extra_pixels = 0, garment_pixels = 0;
   for (std::uint32_t y = 0; y < view.height; ++y) {
     for (std::uint32_t x = 0; x < view.width; ++x) {
       const std::size_t i = std::size_t{y} * view.width + x;
@@ -88,10 +88,18 @@ TEST_F(AovTest, EveryPixelShowsTheFaceThatItNames) {
       const Item& item = wardrobe.items[item_id];
       std::array<Vec3, 3> face;
       if (picture.region[i] < numbers.first_garment) {
-        if (item.name == "patch" && picture.region[i] == 1) continue;  // faces that the template lacks
-        const FaceId number(picture.face[i] - 1);
-        EXPECT_EQ(wardrobe.body.region_of_face[number].value + 1, picture.region[i]);
-        face = corners(person, wardrobe.body.vertices.raw(), wardrobe.body.faces[number], seconds);
+        const std::uint32_t number = picture.face[i] - 1;
+        const auto template_faces = static_cast<std::uint32_t>(wardrobe.body.faces.size());
+        if (number < template_faces) {
+          EXPECT_EQ(wardrobe.body.region_of_face[FaceId(number)].value + 1, picture.region[i]);
+          EXPECT_NE(item.visible[FaceId(number)], 0);
+          face = corners(person, wardrobe.body.vertices.raw(), wardrobe.body.faces[FaceId(number)], seconds);
+        } else {  // a face that the template lacks
+          const ExtraBodyPart& extra = item.extra_body.at(0);
+          EXPECT_EQ(extra.region.value + 1, picture.region[i]);
+          face = corners(person, extra.part.vertices, extra.part.faces.at(number - template_faces), seconds);
+          ++extra_pixels;
+        }
         ++body_pixels;
       } else {
         const std::string& name = numbers.garments.at(picture.region[i] - numbers.first_garment);
@@ -111,6 +119,7 @@ TEST_F(AovTest, EveryPixelShowsTheFaceThatItNames) {
     }
   }
   EXPECT_GT(body_pixels, 500u);
+  EXPECT_GT(extra_pixels, 5u);
   EXPECT_GT(garment_pixels, 500u);
 }
 
