@@ -61,7 +61,7 @@ std::vector<Technique> parseTechniques(const std::string& text) {
 
 /// Numbers of people in the crowd; what the scene says where none are given.
 std::vector<std::string> parseCounts(const std::string& text, const Scene& scene) {
-  if (text.empty()) return {std::to_string(scene.crowd.count)};
+  if (text.empty()) return {std::to_string(scene.crowd.count.value_or(0))};
   std::vector<std::string> counts;
   for (const std::string_view part : splitList(text)) {
     std::uint32_t count = 0;

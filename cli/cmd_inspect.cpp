@@ -156,7 +156,7 @@ Findings inspectScene(const std::string& file) {
   found.json = {{"scene", file},
                 {"technique", toString(scene.technique)},
                 {"wardrobes", Json::array()},
-                {"crowd", scene.crowd.count},
+                {"crowd", scene.crowd.count ? Json(*scene.crowd.count) : Json(nullptr)},
                 {"people", scene.people.size()},
                 {"width", scene.output.width},
                 {"height", scene.output.height},
@@ -168,7 +168,9 @@ Findings inspectScene(const std::string& file) {
     found.text += fmt::format("wardrobe {}: {}\n", wardrobe.key.empty() ? "(only one)" : wardrobe.key,
                               wardrobe.folder.string());
   }
-  found.text += fmt::format("crowd of {}, {} named people\n", scene.crowd.count, scene.people.size());
+  const std::string count = scene.crowd.count ? std::to_string(*scene.crowd.count)
+                                              : "all of " + scene.crowd.placement.file.value.string();
+  found.text += fmt::format("crowd of {}, {} named people\n", count, scene.people.size());
   return found;
 }
 

@@ -82,7 +82,9 @@ void run(const RenderArguments& arguments) {
   Picture picture;
   Progress progress("rendering", frames.size());
   for (const std::uint32_t frame : frames) {
-    renderer.render(std::span(&view, 1), frame / double{scene.output.fps}, std::span(&picture, 1));
+    const double seconds = frame / double{scene.output.fps};
+    view.camera = scene.camera.at(seconds);
+    renderer.render(std::span(&view, 1), seconds, std::span(&picture, 1));
     const std::filesystem::path file = names.picture(frame);
     writePicture(file, picture.color);
     for (const Aov aov : aovs) writeAov(names, frame, aov, picture);

@@ -35,5 +35,6 @@ void addInspectCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addPeopleCommand(CLI::App& app);
+void addSceneCommand(CLI::App& app);
 
 }  // namespace ensemble::cli

@@ -28,7 +28,7 @@ int run(int argc, char** argv) {
   app.set_version_flag(
       "--version", [] { return versionText(); }, "Print version, build type and Vulkan device");
   for (const auto add : {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand,
-                         addRenderCommand, addBenchCommand, addPeopleCommand}) {
+                         addSceneCommand, addRenderCommand, addBenchCommand, addPeopleCommand}) {
     add(app);
   }
   try {

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "core/atomic_file.h"
 #include "core/input_error.h"
 #include "core/nearest_name.h"
 #include "core/yaml_reader.h"
+#include "embedded/kReferenceScene.h"
 
 namespace ensemble {
 namespace {
@@ -28,6 +32,14 @@ constexpr NumberRange kWeightRange{0.0, 1e6};
 constexpr NumberRange kScaleRange{0.01, 100.0};
 constexpr NumberRange kSpeedRange{0.0, 100.0};
 constexpr NumberRange kShareRange{0.0, 1.0};
+constexpr NumberRange kWidthRange{0.0, 1000.0, false, false, "metres"};
+constexpr NumberRange kLengthRange{0.0, 1e6, false, false, "metres"};
+constexpr NumberRange kDurationRange{0.0, 1e5, true, false, "seconds"};
+constexpr NumberRange kTimeRange{0.0, 1e6, false, false, "seconds"};
+constexpr NumberRange kTurnRange{-1e5, 1e5, false, false, "seconds"};
+constexpr NumberRange kWalkingSpeedRange{0.0, 20.0, true, false, "metres a second"};
+constexpr NumberRange kAccelerationRange{0.0, 100.0, true, false, "metres a second squared"};
+constexpr NumberRange kSmoothingRange{0.0, 10.0, false, false, "seconds"};
 
 float headingRadians(const YamlValue& value) { return radians(value.numberFloat(kHeadingRange)); }
 
@@ -114,38 +126,130 @@ std::vector<WeightedName> readWeights(const YamlValue& value) {
   return weights;
 }
 
-std::array<float, 2> readScaleRange(const YamlValue& value) {
+/// One number, or [least, most].
+std::array<float, 2> readSpan(const YamlValue& value, const NumberRange& allowed) {
   if (!value.isSequence()) {
-    const float scale = value.numberFloat(kScaleRange);
-    return {scale, scale};
+    const float number = value.numberFloat(allowed);
+    return {number, number};
   }
   const std::vector<YamlValue> ends = value.items("");
   if (ends.size() != 2) {
     value.fail(fmt::format("{} is a list of {}", value.path(), ends.size()),
                "give [least, most] or one number");
   }
-  const std::array<float, 2> range{ends[0].numberFloat(kScaleRange), ends[1].numberFloat(kScaleRange)};
+  const std::array<float, 2> range{ends[0].numberFloat(allowed), ends[1].numberFloat(allowed)};
   if (range[0] > range[1]) {
     value.fail(fmt::format("{} begins with the greater number", value.path()), "give [least, most]");
   }
   return range;
 }
 
-PlacementKind readPlacementKind(const YamlValue& value) {
-  if (value.isWord("paths") || value.isWord("file")) {
-    value.fail(fmt::format("the placement {} is not supported by this version yet", value.text("")),
-               "give 'grid', 'disc' or 'formation'");
+std::vector<Vec3> readPoints(const YamlValue& value, bool closed) {
+  std::vector<Vec3> points;
+  for (const YamlValue& item : value.items("a list of points [x, y, z]")) {
+    points.push_back(item.vector(kPositionRange));
+    if (points.size() > 1 && glm::distance(points[points.size() - 2], points.back()) < 0.01f) {
+      item.fail(item.path() + " is where the point before it is", "move it or remove it");
+    }
   }
-  constexpr PlacementKind kKinds[] = {PlacementKind::kGrid, PlacementKind::kDisc, PlacementKind::kFormation};
-  return kKinds[value.word({"grid", "disc", "formation"})];
+  const std::size_t least = closed ? 3 : 2;
+  if (points.size() < least) {
+    value.fail(fmt::format("{} has {} points", value.path(), points.size()),
+               fmt::format("give {} at least", least));
+  }
+  if (closed && glm::distance(points.front(), points.back()) < 0.01f) {
+    value.fail(value.path() + " ends where it begins, and is closed anyway", "remove the last point");
+  }
+  return points;
 }
 
-void readPlacement(const YamlValue& value, ScenePlacement& placement) {
-  value.expectKeys({"kind", "spacing", "center", "heading", "heading_spread", "jitter", "columns"},
-                   {"paths", "file"});
-  if (const auto kind = value.find("kind")) placement.kind = readPlacementKind(*kind);
-  if (const auto spacing = value.find("spacing")) placement.spacing = spacing->numberFloat(kSpacingRange);
-  if (const auto center = value.find("center")) placement.center = center->vector(kPositionRange);
+std::vector<ScenePathStop> readStops(const YamlValue& value) {
+  std::vector<ScenePathStop> stops;
+  for (const YamlValue& item : value.items("a list of stops")) {
+    item.expectKeys({"at", "seconds"});
+    ScenePathStop stop;
+    const auto at = item.find("at");
+    if (!at) item.fail("the stop has no place", "add 'at: METRES', from the path's start");
+    stop.at = at->numberFloat(kLengthRange);
+    if (!stops.empty() && stop.at <= stops.back().at) {
+      at->fail(at->path() + " is not beyond the stop before it", "list stops in the order of the path");
+    }
+    if (const auto seconds = item.find("seconds")) stop.seconds = seconds->numberFloat(kDurationRange);
+    stops.push_back(stop);
+  }
+  return stops;
+}
+
+ScenePath readPath(const YamlValue& value) {
+  value.expectKeys({"points", "closed", "width", "corner_radius", "weight", "stops"});
+  ScenePath path;
+  path.mark = value.mark();
+  if (const auto closed = value.find("closed")) path.closed = closed->boolean();
+  const auto points = value.find("points");
+  if (!points) value.fail("the path has no points", "add 'points: [[0, 0, 0], [10, 0, 0]]'");
+  path.points = readPoints(*points, path.closed);
+  if (const auto width = value.find("width")) path.width = width->numberFloat(kWidthRange);
+  if (const auto radius = value.find("corner_radius")) path.corner_radius = radius->numberFloat(kWidthRange);
+  if (const auto weight = value.find("weight")) path.weight = weight->numberFloat(kWeightRange);
+  if (const auto stops = value.find("stops")) path.stops = readStops(*stops);
+  return path;
+}
+
+void readPaths(const YamlValue& value, ScenePlacement& placement) {
+  float weights = 0.0f;
+  for (const YamlValue& path : value.items("a list of paths")) {
+    placement.paths.push_back(readPath(path));
+    weights += placement.paths.back().weight;
+  }
+  if (placement.paths.empty()) value.fail(value.path() + " is empty", "give at least one path");
+  if (weights <= 0.0f) value.fail("every path has the weight 0", "give at least one above 0");
+}
+
+void readWalking(const YamlValue& value, SceneWalking& walking) {
+  if (const auto speed = value.find("speed")) walking.speed = readSpan(*speed, kWalkingSpeedRange);
+  if (const auto acceleration = value.find("acceleration")) {
+    walking.acceleration = acceleration->numberFloat(kAccelerationRange);
+  }
+  if (const auto below = value.find("idle_below"))
+    walking.idle_below = below->numberFloat(kWalkingSpeedRange);
+  if (const auto idle = value.find("idle")) walking.idle = readName(*idle, "a clip's name");
+  if (const auto smoothing = value.find("smoothing"))
+    walking.smoothing = smoothing->numberFloat(kSmoothingRange);
+  if (const auto fps = value.find("fps")) walking.fps = fps->numberFloat(kFpsRange);
+}
+
+struct PlacementKeys {
+  const char* name;
+  PlacementKind kind;
+  std::vector<std::string_view> own;  ///< beside `kind`
+};
+
+const std::vector<PlacementKeys>& placementKinds() {
+  static const std::vector<PlacementKeys> kinds = {
+      {"grid", PlacementKind::kGrid, {"spacing", "center", "heading", "heading_spread", "jitter", "columns"}},
+      {"disc", PlacementKind::kDisc, {"spacing", "center", "heading", "heading_spread"}},
+      {"formation",
+       PlacementKind::kFormation,
+       {"spacing", "center", "heading", "heading_spread", "jitter", "columns"}},
+      {"paths", PlacementKind::kPaths, {"paths", "spacing", "speed", "acceleration", "idle_below", "idle"}},
+      {"file", PlacementKind::kFile, {"file", "center", "idle_below", "idle", "smoothing", "fps"}}};
+  return kinds;
+}
+
+/// A key that another kind of placement has is an error that says which.
+void refuseOthersKeys(const YamlValue& value, const PlacementKeys& chosen) {
+  for (const PlacementKeys& other : placementKinds()) {
+    for (const std::string_view key : other.own) {
+      if (std::find(chosen.own.begin(), chosen.own.end(), key) != chosen.own.end()) continue;
+      const auto found = value.find(key);
+      if (!found) continue;
+      found->fail(fmt::format("{} means nothing for 'kind: {}'", found->path(), chosen.name),
+                  fmt::format("remove it, or give 'kind: {}'", other.name));
+    }
+  }
+}
+
+void readHeading(const YamlValue& value, ScenePlacement& placement) {
   if (const auto heading = value.find("heading")) placement.heading = headingRadians(*heading);
   if (const auto spread = value.find("heading_spread")) {
     placement.heading_spread = radians(spread->numberFloat(kHeadingSpreadRange));
@@ -153,30 +257,50 @@ void readPlacement(const YamlValue& value, ScenePlacement& placement) {
       spread->fail("heading_spread without heading, where headings are random", "add a heading");
     }
   }
-  const auto jitter = value.find("jitter");
-  if (jitter) placement.jitter = jitter->numberFloat(kJitterRange);
-  const auto columns = value.find("columns");
-  if (columns) placement.columns = static_cast<std::uint32_t>(columns->wholeNumber(0, kMaxCrowd));
-  for (const auto& option : {jitter, columns}) {
-    if (!option || placement.kind != PlacementKind::kDisc) continue;
-    option->fail(fmt::format("{} means nothing for a disc", option->path()),
-                 "remove it, or give 'kind: grid' or 'kind: formation'");
+}
+
+void readPlacement(const YamlValue& value, const std::filesystem::path& base, ScenePlacement& placement) {
+  value.expectKeys({"kind", "spacing", "center", "heading", "heading_spread", "jitter", "columns", "paths",
+                    "file", "speed", "acceleration", "idle_below", "idle", "smoothing", "fps"});
+  const auto kind = value.find("kind");
+  const std::size_t index = kind ? kind->word({"grid", "disc", "formation", "paths", "file"}) : 0;
+  const PlacementKeys& keys = placementKinds()[index];
+  placement.kind = keys.kind;
+  refuseOthersKeys(value, keys);
+  if (const auto spacing = value.find("spacing")) placement.spacing = spacing->numberFloat(kSpacingRange);
+  if (const auto center = value.find("center")) placement.center = center->vector(kPositionRange);
+  readHeading(value, placement);
+  if (const auto jitter = value.find("jitter")) placement.jitter = jitter->numberFloat(kJitterRange);
+  if (const auto columns = value.find("columns")) {
+    placement.columns = static_cast<std::uint32_t>(columns->wholeNumber(0, kMaxCrowd));
+  }
+  if (const auto paths = value.find("paths")) readPaths(*paths, placement);
+  if (const auto file = value.find("file")) {
+    placement.file = {base / file->text("a file"), file->mark()};
+  }
+  readWalking(value, placement.walking);
+  if (placement.kind == PlacementKind::kPaths && placement.paths.empty()) {
+    value.fail("the placement has no paths", "add 'paths:' with a list of them");
+  }
+  if (placement.kind == PlacementKind::kFile && placement.file.value.empty()) {
+    value.fail("the placement has no file", "add 'file: FILE', a trajectory or a table of people");
   }
 }
 
-void readCrowd(const YamlValue& value, SceneCrowd& crowd) {
+void readCrowd(const YamlValue& value, const std::filesystem::path& base, SceneCrowd& crowd) {
   value.expectKeys({"count", "seed", "wardrobes", "placement", "outfits", "clips", "scale"});
+  if (const auto placement = value.find("placement")) readPlacement(*placement, base, crowd.placement);
+  crowd.count.reset();
   if (const auto count = value.find("count")) {
     crowd.count = static_cast<std::uint32_t>(count->wholeNumber(0, kMaxCrowd));
-  } else {
+  } else if (crowd.placement.kind != PlacementKind::kFile) {
     value.fail("the crowd has no count", "add 'count: 1000'");
   }
   if (const auto seed = value.find("seed")) crowd.seed = seed->wholeNumber(0, UINT64_MAX);
   if (const auto wardrobes = value.find("wardrobes")) crowd.wardrobes = readWeights(*wardrobes);
-  if (const auto placement = value.find("placement")) readPlacement(*placement, crowd.placement);
   if (const auto outfits = value.find("outfits")) crowd.outfits = readWeights(*outfits);
   if (const auto clips = value.find("clips")) crowd.clips = readWeights(*clips);
-  if (const auto scale = value.find("scale")) crowd.scale = readScaleRange(*scale);
+  if (const auto scale = value.find("scale")) crowd.scale = readSpan(*scale, kScaleRange);
 }
 
 ScenePerson readPerson(const YamlValue& value) {
@@ -199,19 +323,55 @@ ScenePerson readPerson(const YamlValue& value) {
   return person;
 }
 
+void checkCamera(Vec3 position, Vec3 target, const YamlValue& value) {
+  if (glm::distance(position, target) >= 1e-4f) return;
+  value.fail("the camera's target is where the camera stands", "move one of them");
+}
+
+/// What a key leaves out is as in the key before it, in the first as the camera has it.
+void readCameraKeys(const YamlValue& value, SceneCamera& camera) {
+  SceneCameraKey key{-1.0f, camera.position, camera.target, camera.fov_y};
+  for (const YamlValue& item : value.items("a list of camera keys")) {
+    item.expectKeys({"time", "position", "target", "fov_y"});
+    const auto time = item.find("time");
+    if (!time) item.fail("the camera key has no time", "add 'time: SECONDS'");
+    const float seconds = time->numberFloat(kTimeRange);
+    if (seconds <= key.seconds)
+      time->fail(time->path() + " is not after the key before it", "give a later time");
+    key.seconds = seconds;
+    if (const auto position = item.find("position")) key.position = position->vector(kPositionRange);
+    if (const auto target = item.find("target")) key.target = target->vector(kPositionRange);
+    if (const auto fov = item.find("fov_y")) key.fov_y = radians(fov->numberFloat(kFovRange));
+    checkCamera(key.position, key.target, item);
+    camera.keys.push_back(key);
+  }
+  if (camera.keys.empty()) value.fail(value.path() + " is empty", "give a key, or remove it");
+}
+
 void readCamera(const YamlValue& value, SceneCamera& camera) {
-  value.expectKeys({"position", "target", "fov_y", "near"}, {"keys"});
+  value.expectKeys({"position", "target", "fov_y", "near", "keys", "interpolation", "orbit"});
   const auto position = value.find("position");
   if (position) camera.position = position->vector(kPositionRange);
   const auto target = value.find("target");
   if (target) camera.target = target->vector(kPositionRange);
   if (const auto fov = value.find("fov_y")) camera.fov_y = radians(fov->numberFloat(kFovRange));
   if (const auto near_plane = value.find("near")) camera.near_plane = near_plane->numberFloat(kNearRange);
-  if (glm::distance(camera.position, camera.target) < 1e-4f) {
-    (target     ? *target
-     : position ? *position
-                : value)
-        .fail("the camera's target is where the camera stands", "move one of them");
+  checkCamera(camera.position, camera.target, target ? *target : position ? *position : value);
+  const auto keys = value.find("keys"), orbit = value.find("orbit");
+  if (keys) readCameraKeys(*keys, camera);
+  if (const auto interpolation = value.find("interpolation")) {
+    camera.smooth = interpolation->word({"smooth", "linear"}) == 0;
+    if (!keys) interpolation->fail("camera.interpolation without keys", "add keys, or remove it");
+  }
+  if (orbit) {
+    orbit->expectKeys({"seconds"});
+    camera.orbit.emplace();
+    if (keys) orbit->fail("the camera has keys and an orbit", "remove one of them");
+    if (const auto seconds = orbit->find("seconds")) {
+      camera.orbit->seconds = seconds->numberFloat(kTurnRange);
+      if (camera.orbit->seconds == 0.0f)
+        seconds->fail("camera.orbit.seconds is 0", "give the seconds of a turn");
+    }
   }
 }
 
@@ -237,7 +397,7 @@ void readScene(const YamlValue& root, Scene& scene) {
     scene.technique = kAllTechniques[technique->word({"naive", "prefitted", "tagged"})];
   }
   if (const auto output = root.find("output")) readOutput(*output, scene.output);
-  if (const auto crowd = root.find("crowd")) readCrowd(*crowd, scene.crowd);
+  if (const auto crowd = root.find("crowd")) readCrowd(*crowd, scene.file.parent_path(), scene.crowd);
   if (const auto people = root.find("people")) {
     for (const YamlValue& person : people->items("a list of people")) {
       scene.people.push_back(readPerson(person));
@@ -272,5 +432,7 @@ Scene loadScene(const std::filesystem::path& file, std::span<const SceneOverride
   const std::vector<std::byte> bytes = readFile(file, YamlLimits().max_bytes);
   return parseScene(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file, overrides);
 }
+
+std::string referenceScene() { return kReferenceScene; }
 
 }  // namespace ensemble

@@ -27,7 +27,34 @@ struct SceneOutput {
   Vec3 background_color{0.0f};  ///< sRGB, 0 .. 1
 };
 
-enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation };
+enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation, kPaths, kFile };
+
+/// A stand on a path.
+struct ScenePathStop {
+  float at = 0.0f;       ///< metres along the path's middle
+  float seconds = 1.0f;  ///< everybody stands this long
+};
+
+/// A line that people walk along, for ever.
+struct ScenePath {
+  std::vector<Vec3> points;  ///< two at least, three where closed
+  bool closed = false;       ///< false: who comes to the end begins again at the start
+  float width = 0.0f;        ///< metres: lanes beside each other, a spacing apart
+  float corner_radius = 1.0f;
+  float weight = 1.0f;               ///< share of the people, times its number of lanes
+  std::vector<ScenePathStop> stops;  ///< ascending
+  SourceMark mark;
+};
+
+/// How people of `paths` and `file` walk.
+struct SceneWalking {
+  std::optional<std::array<float, 2>> speed;  ///< metres a second, a lane's is uniform between; paths only
+  float acceleration = 1.0f;                  ///< metres a second squared; paths only
+  float idle_below = 0.4f;                    ///< metres a second: slower, the walk blends into the idle clip
+  Marked<std::string> idle;                   ///< clip for standing; empty: the first without ground speed
+  float smoothing = 0.5f;                     ///< seconds over which a trajectory is averaged; file only
+  std::optional<float> fps;                   ///< of a trajectory; left out: what its file says; file only
+};
 
 /// Where the crowd stands. Distances in metres; `heading` as for a person, in degrees in the file.
 struct ScenePlacement {
@@ -38,6 +65,9 @@ struct ScenePlacement {
   float heading_spread = 0.0f;   ///< radians: uniform within +- this about heading
   float jitter = 0.0f;           ///< grid, formation: share of the spacing, 0 .. 0.45
   std::uint32_t columns = 0;     ///< formation, grid: people in a rank; 0: as square as possible
+  std::vector<ScenePath> paths;
+  Marked<std::filesystem::path> file;  ///< trajectory or table of people, resolved against the scene's folder
+  SceneWalking walking;
 };
 
 struct WeightedName {
@@ -47,7 +77,8 @@ struct WeightedName {
 };
 
 struct SceneCrowd {
-  std::uint32_t count = 0;
+  /// kFile: none means all of the file.
+  std::optional<std::uint32_t> count = 0;
   std::uint64_t seed = 1;
   std::vector<WeightedName> wardrobes;  ///< by key; empty: all alike
   ScenePlacement placement;
@@ -69,11 +100,29 @@ struct ScenePerson {
   SourceMark mark;
 };
 
+/// Where the camera is at a time.
+struct SceneCameraKey {
+  float seconds = 0.0f;
+  Vec3 position{0.0f}, target{0.0f};
+  float fov_y = 0.0f;  ///< radians
+};
+
+/// A camera that goes round its target once in `seconds`, from where `position` is.
+struct SceneOrbit {
+  float seconds = 10.0f;  ///< a whole turn; negative: clockwise, seen from above
+};
+
 struct SceneCamera {
   Vec3 position{0.0f, 1.7f, 12.0f};
   Vec3 target{0.0f, 1.0f, 0.0f};
   float fov_y = radians(45.0f);
-  float near_plane = 0.1f;  ///< metres; there is no far plane
+  float near_plane = 0.1f;           ///< metres; there is no far plane
+  std::vector<SceneCameraKey> keys;  ///< ascending; empty: it stands still, or goes round
+  bool smooth = true;                ///< between keys: without corners, else straight
+  std::optional<SceneOrbit> orbit;
+
+  /// The camera at a time: without keys and orbit.
+  SceneCamera at(double time_seconds) const;
 };
 
 struct SceneLight {
@@ -115,5 +164,8 @@ Scene loadScene(const std::filesystem::path& file, std::span<const SceneOverride
 /// The same from text; relative wardrobe paths are resolved against `file`'s folder.
 Scene parseScene(const std::string& text, const std::filesystem::path& file,
                  std::span<const SceneOverride> overrides = {});
+
+/// A scene file with every key and what it means, for people to read and to begin with.
+std::string referenceScene();
 
 }  // namespace ensemble

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include "core/clip.h"
+#include "core/gait.h"
 
 namespace ensemble {
 namespace {
@@ -73,7 +76,7 @@ void addClip(Animation& animation, const RawSkeleton& skeleton, const std::vecto
   animation.clips.push_back({.first_matrix = static_cast<std::uint32_t>(animation.texels.size() / 3),
                              .key_count = key_count,
                              .joint_count = static_cast<std::uint32_t>(boxes.size()),
-                             .unused_0 = 0});
+                             .legs = static_cast<std::uint32_t>(animation.legs.size() - 1)});
   Box bounds;
   addMoved(bounds, boxes.back(), Mat4(1.0f));
   for (std::uint32_t i = 0; i < key_count; ++i) {
@@ -87,6 +90,25 @@ void addClip(Animation& animation, const RawSkeleton& skeleton, const std::vecto
   animation.bounds.push_back(sphereAround(bounds));
 }
 
+/// Legs as the pose pass reads them.
+void addLegs(Animation& animation, const RawSkeleton& skeleton) {
+  GpuLegs gpu{};
+  gpu.first_group = static_cast<std::uint32_t>(animation.leg_groups.size());
+  const std::optional<Legs> legs = findLegs(skeleton);
+  if (legs) {
+    for (std::size_t l = 0; l < 2; ++l) {
+      const Leg& leg = legs->legs[l];
+      const std::uint32_t joints[] = {leg.hip, leg.knee, leg.ankle};
+      const Vec3 positions[] = {leg.hip_position, leg.knee_position, leg.ankle_position};
+      std::copy(std::begin(joints), std::end(joints), gpu.joints + 3 * l);
+      for (std::size_t i = 0; i < 3; ++i) gpu.positions[3 * l + i] = Vec4(positions[i], 1.0f);
+    }
+    animation.leg_groups.insert(animation.leg_groups.end(), legs->groups.begin(), legs->groups.end());
+  }
+  animation.leg_groups.resize(gpu.first_group + skeleton.joints.size() + 1, 0u);
+  animation.legs.push_back(gpu);
+}
+
 }  // namespace
 
 Animation buildAnimation(std::span<const Wardrobe> wardrobes) {
@@ -96,6 +118,7 @@ Animation buildAnimation(std::span<const Wardrobe> wardrobes) {
     const std::vector<Box> boxes = jointBoxes(wardrobe);
     animation.first_clip.push_back(static_cast<std::uint32_t>(animation.clips.size()));
     animation.joint_count.push_back(static_cast<std::uint32_t>(boxes.size()));
+    addLegs(animation, skeleton);
     for (const Clip& clip : wardrobe.body.clips) {
       addClip(animation, skeleton, boxes, clip.key_count, [&](std::uint32_t i) { return clip.key(i); });
       animation.seconds.push_back(clip.seconds);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/check.h"
@@ -13,46 +14,60 @@
 namespace ensemble {
 namespace {
 
+constexpr float kReachForPrints = 1.1f;  // of a figure's radius
 constexpr std::uint64_t kJointBytes = 3 * sizeof(vec4);
 
 constexpr std::initializer_list<vk::DescriptorType> kPoseBindings = {
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eCombinedImageSampler,
+    vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
     vk::DescriptorType::eStorageBuffer};
 
 }  // namespace
 
 CrowdState::CrowdState(gpu::Device& device, const Crowd& crowd, const Animation& animation,
-                       std::uint64_t max_buffer_bytes) {
-  makeCharacters(crowd, animation);
+                       std::uint64_t max_buffer_bytes)
+    : crowd_(crowd),
+      first_clip_(animation.first_clip),
+      clip_seconds_(animation.seconds),
+      clip_bounds_(animation.bounds) {
+  makeCharacters(animation);
   makeChunks(device, animation, max_buffer_bytes);
   texture_ = uploadAnimation(device, animation);
-  clips_ = gpu::uploadBuffer(device, std::as_bytes(std::span(animation.clips)),
-                             vk::BufferUsageFlagBits::eStorageBuffer, "the table of clips");
+  const auto upload = [&](auto values, const char* what) {
+    return gpu::uploadBuffer(device, std::as_bytes(values), vk::BufferUsageFlagBits::eStorageBuffer, what);
+  };
+  clips_ = upload(std::span(animation.clips), "the table of clips");
+  legs_ = upload(std::span(animation.legs), "the table of legs");
+  leg_groups_ = upload(std::span(animation.leg_groups), "the parts of legs");
   createPipeline(device);
   setTime(0.0);
 }
 
-void CrowdState::makeCharacters(const Crowd& crowd, const Animation& animation) {
-  for (std::uint32_t i = 0; i < crowd.characters.size(); ++i) {
-    const Character& person = crowd.characters[i];
-    const Mat4 world_from_model = person.worldFromModel();
+void CrowdState::makeCharacters(const Animation& animation) {
+  for (std::uint32_t i = 0; i < crowd_.characters.size(); ++i) {
+    const Character& person = crowd_.characters[i];
     GpuCharacter character{};
-    for (int row = 0; row < 3; ++row) {
-      character.world_from_model[row] = {world_from_model[0][row], world_from_model[1][row],
-                                         world_from_model[2][row], world_from_model[3][row]};
-    }
     character.clip = animation.first_clip[person.wardrobe] + person.clip;
     ENSEMBLE_CHECK(character.clip < animation.clips.size());
+    character.idle_clip = character.clip;
     character.combination = person.combination;
     character.tint_seed = person.tint_seed;
     character.number = i;
+    setPlace(person.worldFromModel(), animation.bounds[character.clip], person.scale, character,
+             bounds_.emplace_back());
     characters_.push_back(character);
     combinations_.push_back(person.combination);
-    playing_.push_back({animation.seconds[character.clip], person.phase, person.speed});
-    const Sphere& sphere = animation.bounds[character.clip];
-    bounds_.push_back({Vec3(world_from_model * Vec4(sphere.center, 1.0f)), sphere.radius * person.scale});
   }
+}
+
+void CrowdState::setPlace(const Mat4& world_from_model, const Sphere& model_bounds, float scale,
+                          GpuCharacter& character, Sphere& bounds) {
+  for (int row = 0; row < 3; ++row) {
+    character.world_from_model[row] = {world_from_model[0][row], world_from_model[1][row],
+                                       world_from_model[2][row], world_from_model[3][row]};
+  }
+  bounds = {Vec3(world_from_model * Vec4(model_bounds.center, 1.0f)), model_bounds.radius * scale};
 }
 
 void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std::uint64_t max_buffer_bytes) {
@@ -100,6 +115,8 @@ void CrowdState::createPipeline(gpu::Device& device) {
     gpu::writeImage(device, sets_[i], ENSEMBLE_BINDING_POSE_ANIMATION, texture_, &sampler_,
                     vk::ImageLayout::eShaderReadOnlyOptimal);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_QUEUE, chunks_[i].pose_queue);
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_LEGS, legs_);
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_LEG_GROUPS, leg_groups_);
   }
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(std::uint32_t)};
@@ -116,12 +133,37 @@ void CrowdState::createPipeline(gpu::Device& device) {
           .layout = *layout_}));
 }
 
+void CrowdState::setWalker(const Character& person, double seconds, GpuCharacter& character,
+                           Sphere& bounds) const {
+  const CharacterPose pose = poseAt(crowd_, person, 0.0f, seconds);
+  const std::uint32_t first_clip = first_clip_[person.wardrobe];
+  const Sphere &walk = clip_bounds_[first_clip + pose.clip],
+               &idle = clip_bounds_[first_clip + pose.idle_clip];
+  // Both clips, and legs that reach for their prints.
+  const float radius =
+      kReachForPrints * (std::max(walk.radius, idle.radius) + glm::distance(walk.center, idle.center));
+  setPlace(pose.world_from_model, {walk.center, radius}, person.scale, character, bounds);
+  if (!pose.exists) bounds.radius = -std::numeric_limits<float>::infinity();
+  character.phase = pose.phase;
+  character.idle_clip = first_clip + pose.idle_clip;
+  character.idle_phase = pose.idle_phase;
+  character.idle_weight = pose.idle_weight;
+  for (std::size_t foot = 0; foot < 2; ++foot) {
+    const FootShift& shift = pose.feet[foot];
+    character.feet[foot] = {shift.x, shift.yaw, shift.z, pose.holds_feet ? 1.0f : 0.0f};
+  }
+}
+
 void CrowdState::setTime(double seconds) {
   for (const CrowdChunk& chunk : chunks_) {
     const std::span<GpuCharacter> mapped = chunk.characters.mapped<GpuCharacter>();
     for (std::uint32_t i = 0; i < chunk.count; ++i) {
-      const Playing& playing = playing_[chunk.first + i];
-      mapped[i].phase = phaseAt(seconds, playing.clip_seconds, playing.phase, playing.speed);
+      const Character& person = crowd_.characters[chunk.first + i];
+      if (person.walker) {
+        setWalker(person, seconds, mapped[i], bounds_[chunk.first + i]);
+      } else {
+        mapped[i].phase = phaseAt(seconds, clip_seconds_[mapped[i].clip], person.phase, person.speed);
+      }
     }
   }
   has_pose_.assign(characters_.size(), 0);

@@ -25,13 +25,15 @@ struct CrowdChunk {
 
 class CrowdState {
  public:
+  /// The crowd must outlive the state.
   CrowdState(gpu::Device& device, const Crowd& crowd, const Animation& animation,
              std::uint64_t max_buffer_bytes);
 
   const std::vector<CrowdChunk>& chunks() const { return chunks_; }
   /// Per person: its combination.
   std::span<const std::uint32_t> combinations() const { return combinations_; }
-  /// Holds a person whatever the clip's time, world space.
+  /// Holds a person whatever the clip's time, world space, at the time set; those who are not there at
+  /// that time have a radius that touches nothing.
   const std::vector<Sphere>& bounds() const { return bounds_; }
   std::uint32_t characterCount() const { return static_cast<std::uint32_t>(characters_.size()); }
 
@@ -46,23 +48,26 @@ class CrowdState {
   void recordPoses(const vk::raii::CommandBuffer& commands);
 
  private:
-  void makeCharacters(const Crowd& crowd, const Animation& animation);
+  void makeCharacters(const Animation& animation);
+  static void setPlace(const Mat4& world_from_model, const Sphere& model_bounds, float scale,
+                       GpuCharacter& character, Sphere& bounds);
+  void setWalker(const Character& person, double seconds, GpuCharacter& character, Sphere& bounds) const;
   void makeChunks(gpu::Device& device, const Animation& animation, std::uint64_t max_buffer_bytes);
   void createPipeline(gpu::Device& device);
 
+  const Crowd& crowd_;
+  std::vector<std::uint32_t> first_clip_;  // per wardrobe
+  std::vector<float> clip_seconds_;
+  std::vector<Sphere> clip_bounds_;  // model space
   std::vector<GpuCharacter> characters_;
   std::vector<std::uint32_t> combinations_;
   std::vector<Sphere> bounds_;
-  struct Playing {
-    float clip_seconds, phase, speed;
-  };
-  std::vector<Playing> playing_;
   std::vector<std::uint8_t> has_pose_;  // per person, at this time
   std::vector<CrowdChunk> chunks_;
   std::vector<std::uint32_t> chunk_of_;  // per person
 
   gpu::Image texture_;
-  gpu::Buffer clips_;
+  gpu::Buffer clips_, legs_, leg_groups_;
   vk::raii::Sampler sampler_ = nullptr;
   vk::raii::DescriptorSetLayout set_layout_ = nullptr;
   gpu::DescriptorSets sets_;  // per chunk

@@ -17,5 +17,8 @@ inline constexpr std::uint64_t kJitterX = 8;
 inline constexpr std::uint64_t kJitterZ = 9;
 inline constexpr std::uint64_t kDisc = 10;
 inline constexpr std::uint64_t kPersonTint = 11;  ///< of `people`, by number in the file
+inline constexpr std::uint64_t kPathShift = 12;   ///< by number in the crowd, lanes from 2^40 on
+inline constexpr std::uint64_t kLaneSpeed = 13;   ///< by number of the lane
+inline constexpr std::uint64_t kFirstFoot = 14;
 
 }  // namespace ensemble::crowd_stream

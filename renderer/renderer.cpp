@@ -52,7 +52,7 @@ Vec3 meanSkin(const Wardrobe& wardrobe) {
 
 /// A scene on the device. Members refer to those above them.
 struct LoadedScene {
-  Crowd crowd;
+  std::unique_ptr<const Crowd> crowd;
   AovNumbers numbers;
   std::unique_ptr<CrowdAssets> assets;
   std::unique_ptr<CrowdState> state;
@@ -96,8 +96,8 @@ struct Renderer::Impl {
     ENSEMBLE_CHECK(wardrobes.size() == scene.wardrobes.size());
     loaded.reset();  // Its memory is needed.
     LoadedScene next;
-    next.crowd = populateCrowd(scene, wardrobes);
-    const WornLists worn = buildLists(next.crowd, wardrobes, scene.technique);
+    next.crowd = std::make_unique<const Crowd>(populateCrowd(scene, wardrobes));
+    const WornLists worn = buildLists(*next.crowd, wardrobes, scene.technique);
     const Animation animation = buildAnimation(wardrobes);
     CrowdAssets::Input input{.wardrobes = {},
                              .combinations = worn.combinations,
@@ -115,7 +115,7 @@ struct Renderer::Impl {
     }
     next.assets = std::make_unique<CrowdAssets>(device, input);
     next.numbers.first_garment = next.assets->firstGarmentNumber();
-    next.state = std::make_unique<CrowdState>(device, next.crowd, animation, options.max_buffer_bytes);
+    next.state = std::make_unique<CrowdState>(device, *next.crowd, animation, options.max_buffer_bytes);
     next.frames = std::make_unique<FrameLoop>(device, *next.assets, *next.state, options.max_buffer_bytes);
     loaded.emplace(std::move(next));
   }
@@ -141,7 +141,7 @@ void Renderer::render(std::span<const View> views, double seconds, std::span<Pic
 
 const Crowd& Renderer::crowd() const {
   ENSEMBLE_CHECK(impl_->loaded.has_value());
-  return impl_->loaded->crowd;
+  return *impl_->loaded->crowd;
 }
 
 const AovNumbers& Renderer::aovNumbers() const {

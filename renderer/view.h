@@ -41,8 +41,8 @@ struct View {
   bool drawsGround() const { return ground && background != BackgroundKind::kTransparent; }
 };
 
-/// The view that a scene asks for.
-View viewOf(const Scene& scene);
+/// The view that a scene asks for at a time.
+View viewOf(const Scene& scene, double seconds = 0.0);
 
 /// A view's pictures; rows from the top. Given again, its memory is used again.
 struct Picture {

@@ -70,9 +70,9 @@ struct LightBox {
 
 }  // namespace
 
-View viewOf(const Scene& scene) {
+View viewOf(const Scene& scene, double seconds) {
   View view;
-  view.camera = scene.camera;
+  view.camera = scene.camera.at(seconds);
   view.light = scene.light;
   view.ground = scene.ground;
   view.width = scene.output.width;

@@ -30,6 +30,8 @@
 #define ENSEMBLE_BINDING_POSE_CLIPS 2
 #define ENSEMBLE_BINDING_POSE_ANIMATION 3
 #define ENSEMBLE_BINDING_POSE_QUEUE 4
+#define ENSEMBLE_BINDING_POSE_LEGS 5
+#define ENSEMBLE_BINDING_POSE_LEG_GROUPS 6
 
 // The post pass: the resolved linear picture in, the sRGB picture out.
 #define ENSEMBLE_BINDING_POST_LINEAR 0
@@ -83,8 +85,13 @@ struct GpuCharacter {
   uint tint_seed;
   uint first_joint;  ///< its first matrix in the palette
   uint number;       ///< in the whole crowd
+  uint idle_clip;    ///< blended in by idle_weight
+  float idle_phase;
+  vec4 feet[2];       ///< x, z: what the ankle is moved by, model space; y: the sole's turn; w: 1 where held
+  float idle_weight;  ///< 0 .. 1
   uint unused_0;
   uint unused_1;
+  uint unused_2;
 };
 
 /// A clip in the animation texture. Texel 3 * (first_matrix + key * joint_count + joint) + row.
@@ -92,6 +99,14 @@ struct GpuClip {
   uint first_matrix;
   uint key_count;
   uint joint_count;
+  uint legs;  ///< into the table of legs
+};
+
+/// A template's legs in the bind pose, model space (core/gait.h).
+struct GpuLegs {
+  vec4 positions[6];  ///< hip, knee, ankle of the left leg, then of the right
+  uint joints[6];     ///< likewise
+  uint first_group;   ///< of its joints in the table of groups (leg_ik.h)
   uint unused_0;
 };
 
@@ -133,10 +148,13 @@ struct GpuView {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuCharacter) == 80 && offsetof(GpuCharacter, clip) == 48 &&
+static_assert(sizeof(GpuCharacter) == 128 && offsetof(GpuCharacter, clip) == 48 &&
               offsetof(GpuCharacter, phase) == 52 && offsetof(GpuCharacter, combination) == 56 &&
               offsetof(GpuCharacter, tint_seed) == 60 && offsetof(GpuCharacter, first_joint) == 64 &&
-              offsetof(GpuCharacter, number) == 68);
+              offsetof(GpuCharacter, number) == 68 && offsetof(GpuCharacter, feet) == 80 &&
+              offsetof(GpuCharacter, idle_weight) == 112);
+static_assert(sizeof(GpuLegs) == 128 && offsetof(GpuLegs, joints) == 96 &&
+              offsetof(GpuLegs, first_group) == 120);
 static_assert(sizeof(GpuClip) == 16 && offsetof(GpuClip, joint_count) == 8);
 static_assert(sizeof(GpuDraw) == 16 && offsetof(GpuDraw, face_offset) == 12);
 static_assert(sizeof(GpuMaterial) == 64 && offsetof(GpuMaterial, tint) == 16 &&

@@ -1,0 +1,73 @@
+#include "renderer/posed_joints.h"
+
+#include <algorithm>
+
+#include "core/gait.h"
+#include "shaders/shared/leg_ik.h"
+
+namespace ensemble {
+namespace {
+
+std::vector<Mat4> clipMatrices(const TemplateBody& body, std::uint32_t clip_number, float phase) {
+  if (body.clips.empty()) return skinningMatrices(body.skeleton, restPose(body.skeleton));
+  const Clip& clip = body.clips[clip_number];
+  const float at = phase * static_cast<float>(clip.key_count - 1);
+  const std::uint32_t key = std::min(static_cast<std::uint32_t>(at), std::max(clip.key_count, 2u) - 2u);
+  const float part = at - static_cast<float>(key);
+  std::vector<Mat4> matrices = skinningMatrices(body.skeleton, clip.key(key));
+  const std::vector<Mat4> next =
+      skinningMatrices(body.skeleton, clip.key(std::min(key + 1, clip.key_count - 1)));
+  for (std::size_t j = 0; j < matrices.size(); ++j)
+    matrices[j] = matrices[j] * (1.0f - part) + next[j] * part;
+  return matrices;
+}
+
+Mat4 toMatrix(const leg_ik::LegMove& move) {
+  Mat4 matrix(move.rotation);
+  matrix[3] = Vec4(move.to - move.rotation * move.from, 1.0f);
+  return matrix;
+}
+
+void holdFeet(const Legs& legs, const CharacterPose& pose, std::vector<Mat4>& matrices) {
+  const std::vector<Mat4> loose = matrices;
+  const auto moved = [&](std::uint32_t joint, Vec3 bind) { return Vec3(loose[joint] * Vec4(bind, 1.0f)); };
+  for (std::uint32_t l = 0; l < 2; ++l) {
+    const Leg& leg = legs.legs[l];
+    const Vec3 hip = moved(leg.hip, leg.hip_position), knee = moved(leg.knee, leg.knee_position),
+               ankle = moved(leg.ankle, leg.ankle_position);
+    const Vec3 target = ankle + Vec3(pose.feet[l].x, 0.0f, pose.feet[l].z);
+    for (std::uint32_t part = 0; part < ENSEMBLE_LEG_PARTS; ++part) {
+      const Mat4 move = toMatrix(leg_ik::moveLeg(hip, knee, ankle, target, pose.feet[l].yaw, part));
+      for (std::size_t j = 0; j < matrices.size(); ++j) {
+        if (legs.groups[j] == 1 + part + ENSEMBLE_LEG_PARTS * l) matrices[j] = move * matrices[j];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& pose) {
+  std::vector<Mat4> matrices = clipMatrices(body, pose.clip, pose.phase);
+  if (pose.idle_weight > 0.0f) {
+    const std::vector<Mat4> idle = clipMatrices(body, pose.idle_clip, pose.idle_phase);
+    for (std::size_t j = 0; j < matrices.size(); ++j) {
+      matrices[j] = matrices[j] * (1.0f - pose.idle_weight) + idle[j] * pose.idle_weight;
+    }
+  }
+  const std::optional<Legs> legs = findLegs(body.skeleton);
+  if (pose.holds_feet && legs) holdFeet(*legs, pose, matrices);
+  return matrices;
+}
+
+std::vector<Vec3> posedJoints(const TemplateBody& body, const CharacterPose& pose) {
+  const std::vector<Mat4> matrices = posedMatrices(body, pose);
+  std::vector<Vec3> joints;
+  for (std::size_t j = 0; j < matrices.size(); ++j) {
+    const Vec4 bind = glm::inverse(body.skeleton.joints[j].joint_from_model)[3];
+    joints.emplace_back(pose.world_from_model * (matrices[j] * bind));
+  }
+  return joints;
+}
+
+}  // namespace ensemble

@@ -1,0 +1,18 @@
+// The pose pass on the host: where a person's joints are, for annotations and tests.
+#pragma once
+
+#include <vector>
+
+#include "core/wardrobe.h"
+#include "renderer/crowd.h"
+
+namespace ensemble {
+
+/// What skins a vertex, #joints, model space: the same arithmetic as shaders/pose.comp (key frames
+/// interpolated as matrices, the idle clip blended in, legs bent to hold the feet).
+std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& pose);
+
+/// Where the joints are in the world, #joints, metres.
+std::vector<Vec3> posedJoints(const TemplateBody& body, const CharacterPose& pose);
+
+}  // namespace ensemble
