@@ -6,12 +6,12 @@
 
 #include "cli/aov_ids.h"
 #include "cli/command.h"
+#include "cli/frame_files.h"
 #include "cli/frame_list.h"
 #include "cli/scene_run.h"
-#include "core/atomic_file.h"
+#include "core/input_error.h"
 #include "core/progress.h"
 #include "renderer/frame_names.h"
-#include "renderer/picture_writer.h"
 #include "renderer/renderer.h"
 
 namespace ensemble::cli {
@@ -23,6 +23,7 @@ struct RenderArguments {
   CommonOptions common;
   SceneArguments scene;
   std::string output, aovs, frames;
+  bool resume = false;
 };
 
 Json orNull(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
@@ -47,21 +48,12 @@ Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stat
           {"passes", {{"main", toJson(stats.main)}, {"shadow", toJson(stats.shadow)}}}};
 }
 
-void writeAov(const FrameNames& names, std::uint32_t frame, Aov aov, const Picture& picture) {
-  const std::filesystem::path file = names.aov(frame, aov);
-  const std::uint32_t width = picture.color.width, height = picture.color.height;
-  switch (aov) {
-    case Aov::kCharacter:
-      return writeIdAov(file, aov, width, height, picture.character);
-    case Aov::kRegion:
-      return writeIdAov(file, aov, width, height, picture.region);
-    case Aov::kFace:
-      return writeIdAov(file, aov, width, height, picture.face);
-    case Aov::kDepth:
-      return writeFloatAov(file, aov, width, height, picture.depth);
-    case Aov::kNormal:
-      return writeFloatAov(file, aov, width, height, picture.normal);
-  }
+void checkOutput(const RenderArguments& arguments, const Scene& scene, const FrameNames& names) {
+  if (names.format() != PictureFormat::kVideo) return;
+  checkVideo(arguments.output, scene.output);
+  if (!arguments.resume) return;
+  throw UsageError({"", "--resume", "a video is written as a whole and can't be gone on with",
+                    "leave --resume out, or write name_%04d.png and make the video of them"});
 }
 
 void run(const RenderArguments& arguments) {
@@ -69,32 +61,37 @@ void run(const RenderArguments& arguments) {
   const Scene scene = loadSceneOf(arguments.scene);
   const std::vector<std::uint32_t> frames = parseFrames(arguments.frames, scene.output.frames);
   const FrameNames names(arguments.output, static_cast<std::uint32_t>(frames.size()));
+  checkOutput(arguments, scene, names);
   const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
   Renderer renderer({.validate = arguments.scene.validate});
   renderer.load(scene, wardrobes);
   View view = viewOf(scene);
   for (const Aov aov : aovs) view.aovs.add(aov);
-  const std::string ids =
-      aovs.empty() ? "" : aovIds(scene, wardrobes, renderer.crowd(), renderer.aovNumbers()).dump(2) + "\n";
-  if (!names.folder().empty()) std::filesystem::create_directories(names.folder());
+  view.linear = names.format() == PictureFormat::kExr;
+  std::string ids;
+  if (!aovs.empty()) ids = aovIds(scene, wardrobes, renderer.crowd(), renderer.aovNumbers()).dump(2) + "\n";
+  FrameFiles files(names, scene.output, {.aovs = aovs, .ids = std::move(ids)});
 
-  Json rows = Json::array();
+  Json rows = Json::array(), skipped = Json::array();
   Picture picture;
   Progress progress("rendering", frames.size());
   for (const std::uint32_t frame : frames) {
-    const double seconds = frame / double{scene.output.fps};
-    view.camera = scene.camera.at(seconds);
-    renderer.render(std::span(&view, 1), seconds, std::span(&picture, 1));
-    const std::filesystem::path file = names.picture(frame);
-    writePicture(file, picture.color);
-    for (const Aov aov : aovs) writeAov(names, frame, aov, picture);
-    if (!aovs.empty()) writeFileAtomically(names.ids(frame), std::string_view(ids));
-    rows.push_back(toJson(frame, file.string(), picture.stats));
+    if (arguments.resume && files.areFinished(frame)) {
+      skipped.push_back(frame);
+    } else {
+      const double seconds = frame / double{scene.output.fps};
+      view.camera = scene.camera.at(seconds);
+      renderer.render(std::span(&view, 1), seconds, std::span(&picture, 1));
+      files.write(frame, picture);
+      rows.push_back(toJson(frame, names.picture(frame).string(), picture.stats));
+    }
     progress.advance();
   }
-  writeFigures(
-      arguments.common,
-      {{"schema", "ensemble.render/1"}, {"device", renderer.deviceName()}, {"frames", std::move(rows)}});
+  files.finish();
+  writeFigures(arguments.common, {{"schema", "ensemble.render/1"},
+                                  {"device", renderer.deviceName()},
+                                  {"frames", std::move(rows)},
+                                  {"skipped", std::move(skipped)}});
   refuseValidationMessages(renderer);
 }
 
@@ -105,8 +102,10 @@ void addRenderCommand(CLI::App& app) {
   const auto arguments = std::make_shared<RenderArguments>();
   addSceneOptions(command, arguments->scene);
   command
-      .add_option("-o,--output", arguments->output,
-                  "Where the pictures go: dir/, name_%04d.png, or name.png for one frame")
+      .add_option(
+          "-o,--output", arguments->output,
+          "Where the pictures go: dir/ or name_%04d.png (8-bit sRGB), name_%04d.exr (linear light, half "
+          "precision), name.png or name.exr for one frame, name.mp4 for a video (H.264)")
       ->required()
       ->type_name("PATH");
   command
@@ -118,6 +117,9 @@ void addRenderCommand(CLI::App& app) {
       .add_option("--frames", arguments->frames,
                   "Which frames, e.g. 0-9,20; frame i is at i/fps seconds; default: all of output.frames")
       ->type_name("A-B,C");
+  command.add_flag("--resume", arguments->resume,
+                   "Skip frames whose files are all there, complete and of the right size; not with a video; "
+                   "by default every frame is drawn");
   finishCommand(command, arguments->common, "ensemble render scene.yaml -o frames/ --set output.samples=1",
                 [arguments] { run(*arguments); });
 }

@@ -48,6 +48,15 @@ std::filesystem::path folderOf(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
+std::filesystem::path asideOf(const std::filesystem::path& file) {
+  return folderOf(file) / ("." + file.filename().string() + "." + std::to_string(getpid()) + ".tmp");
+}
+
+void makeRenameLast(const std::filesystem::path& file) {
+  const Descriptor folder(open(folderOf(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.number() >= 0) fsync(folder.number());
+}
+
 /// Writes all bytes; the error number, or 0.
 int writeAll(int descriptor, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
@@ -79,9 +88,7 @@ void writeFileAtomically(const std::filesystem::path& file, std::span<const std:
     if (!ignored && target != file) return writeFileAtomically(target, bytes);
   }
 
-  const std::filesystem::path folder = folderOf(file);
-  const std::filesystem::path aside =
-      folder / ("." + file.filename().string() + "." + std::to_string(getpid()) + ".tmp");
+  const std::filesystem::path aside = asideOf(file);
 
   // Write aside, so that a reader never sees half a file.
   Descriptor descriptor(open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
@@ -95,13 +102,41 @@ void writeFileAtomically(const std::filesystem::path& file, std::span<const std:
     failWriting(file, error);
   }
 
-  // Make the rename itself last.
-  const Descriptor folder_descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder_descriptor.number() >= 0) fsync(folder_descriptor.number());
+  makeRenameLast(file);
 }
 
 void writeFileAtomically(const std::filesystem::path& file, std::string_view text) {
   writeFileAtomically(file, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+FileAside::FileAside(const std::filesystem::path& file) : file_(file), target_(file) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw SystemError(
+        {file.string(), "", "is not a regular file, and can't be replaced by one", "choose another name"});
+  }
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(file, ignored))) {
+    target_ = std::filesystem::weakly_canonical(file, ignored);
+  }
+  aside_ = asideOf(target_);
+  const Descriptor descriptor(open(aside_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (descriptor.number() < 0) failWriting(file_, errno);
+}
+
+FileAside::~FileAside() {
+  if (!aside_.empty()) unlink(aside_.c_str());
+}
+
+void FileAside::commit() {
+  Descriptor descriptor(open(aside_.c_str(), O_WRONLY | O_CLOEXEC));
+  if (descriptor.number() < 0) failWriting(file_, errno);
+  int error = fsync(descriptor.number()) != 0 ? errno : 0;
+  if (!descriptor.closeNow() && error == 0) error = errno;
+  if (error == 0 && std::rename(aside_.c_str(), target_.c_str()) != 0) error = errno;
+  if (error != 0) failWriting(file_, error);
+  aside_.clear();
+  makeRenameLast(target_);
 }
 
 std::vector<std::byte> readFile(const std::filesystem::path& file, std::uint64_t max_bytes) {

@@ -17,6 +17,25 @@ namespace ensemble {
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& file, std::string_view text);
 
+/// A file that another library writes bit by bit: it writes to `aside()`, in the same folder; `commit`
+/// makes that last and renames it over `file` as writeFileAtomically does. Without it, what was written
+/// aside is removed.
+class FileAside {
+ public:
+  /// @throws SystemError if `file` can't be replaced, or nothing can be written beside it
+  explicit FileAside(const std::filesystem::path& file);
+  ~FileAside();
+  FileAside(const FileAside&) = delete;
+  FileAside& operator=(const FileAside&) = delete;
+
+  const std::filesystem::path& aside() const { return aside_; }
+  /// @pre whoever wrote it has closed it @throws SystemError with the system's reason
+  void commit();
+
+ private:
+  std::filesystem::path file_, target_, aside_;  ///< target: the file, or where its link leads
+};
+
 /// A whole file's bytes. @throws SystemError (exit 1) if it can't be read, InputError (exit 3) if
 /// it does not exist, is not a regular file, or has more than `max_bytes`.
 std::vector<std::byte> readFile(const std::filesystem::path& file, std::uint64_t max_bytes = 1ull << 32);

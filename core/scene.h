@@ -116,10 +116,10 @@ struct SceneCamera {
   Vec3 position{0.0f, 1.7f, 12.0f};
   Vec3 target{0.0f, 1.0f, 0.0f};
   float fov_y = radians(45.0f);
-  float near_plane = 0.1f;           ///< metres; there is no far plane
-  std::vector<SceneCameraKey> keys;  ///< ascending; empty: it stands still, or goes round
-  bool smooth = true;                ///< between keys: without corners, else straight
-  std::optional<SceneOrbit> orbit;
+  float near_plane = 0.1f;                ///< metres; there is no far plane
+  std::vector<SceneCameraKey> keys = {};  ///< ascending; empty: it stands still, or goes round
+  bool smooth = true;                     ///< between keys: without corners, else straight
+  std::optional<SceneOrbit> orbit = {};
 
   /// The camera at a time: without keys and orbit.
   SceneCamera at(double time_seconds) const;

@@ -60,7 +60,7 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
                            .colorAttachmentCount = colors.size(),
                            .pColorAttachments = colors.data(),
                            .pDepthAttachment = &depth});
-  recordFullViewport(commands, targets.size.width, targets.size.height);
+  recordTileViewport(commands, view, targets.tile);
   recordDraws(commands, draw, view);
   commands.endRendering();
   for (std::size_t i = 0; i < colors.size(); ++i) {

@@ -42,11 +42,12 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   using Layout = vk::ImageLayout;
-  const gpu::ImageBarrier to_color{.from_stage = Stage::eColorAttachmentOutput | Stage::eComputeShader,
-                                   .to_stage = Stage::eColorAttachmentOutput,
-                                   .from_access = Access::eColorAttachmentWrite,
-                                   .to_access = Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
-                                   .to = Layout::eColorAttachmentOptimal};
+  const gpu::ImageBarrier to_color{
+      .from_stage = Stage::eColorAttachmentOutput | Stage::eComputeShader | Stage::eTransfer,
+      .to_stage = Stage::eColorAttachmentOutput,
+      .from_access = Access::eColorAttachmentWrite,
+      .to_access = Access::eColorAttachmentWrite | Access::eColorAttachmentRead,
+      .to = Layout::eColorAttachmentOptimal};
   const bool multisampled = static_cast<bool>(targets.samples);
   gpu::recordBarrier(commands, targets.linear, to_color);
   if (multisampled) gpu::recordBarrier(commands, targets.samples, to_color);
@@ -77,7 +78,7 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
                            .colorAttachmentCount = 1,
                            .pColorAttachments = &color,
                            .pDepthAttachment = &depth});
-  recordFullViewport(commands, targets.size.width, targets.size.height);
+  recordTileViewport(commands, view, targets.tile);
   const Pipelines& pipelines = pipelinesFor(targets.size.samples);
   recordCrowd(commands, draw, &counter, counted_pass,
               [&](const DrawState& state) -> const vk::raii::Pipeline& {

@@ -1,10 +1,12 @@
 #include "renderer/frame_loop.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "core/check.h"
+#include "core/input_error.h"
 
 namespace ensemble {
 namespace {
@@ -29,58 +31,88 @@ vk::raii::Sampler makeShadowSampler(const gpu::Device& device) {
                                              .borderColor = vk::BorderColor::eFloatOpaqueBlack}));
 }
 
-template <class T>
-void readChannel(const Readback& readback, const View& view, std::vector<T>& values) {
-  values.resize(std::size_t{view.width} * view.height);
+/// The rows of a tile from its target, which may be larger: calls take(first pixel in the picture, bytes).
+template <class Take>
+void forEachTileRow(const Readback& readback, const View& view, const Tile& tile, const Take& take) {
   readback.forEachRow([&](std::uint32_t row, std::span<const std::byte> bytes) {
-    std::memcpy(values.data() + std::size_t{row} * view.width, bytes.data(), bytes.size());
+    if (row < tile.height) take(std::size_t{tile.y + row} * view.width + tile.x, bytes);
+  });
+}
+
+/// `count` values of a pixel, which the target has side by side.
+template <class T>
+void readValues(const Readback& readback, const View& view, const Tile& tile, std::size_t count,
+                std::vector<T>& values) {
+  values.resize(count * view.width * view.height);
+  forEachTileRow(readback, view, tile, [&](std::size_t first, std::span<const std::byte> bytes) {
+    std::memcpy(values.data() + count * first, bytes.data(), count * tile.width * sizeof(T));
   });
 }
 
 /// RGBA32F to three floats a pixel.
-void readNormals(const Readback& readback, const View& view, std::vector<float>& values) {
+void readNormals(const Readback& readback, const View& view, const Tile& tile, std::vector<float>& values) {
   values.resize(std::size_t{3} * view.width * view.height);
-  readback.forEachRow([&](std::uint32_t row, std::span<const std::byte> bytes) {
-    float* to = values.data() + std::size_t{3} * row * view.width;
-    for (std::uint32_t x = 0; x < view.width; ++x) {
+  forEachTileRow(readback, view, tile, [&](std::size_t first, std::span<const std::byte> bytes) {
+    float* to = values.data() + 3 * first;
+    for (std::uint32_t x = 0; x < tile.width; ++x) {
       std::memcpy(to + std::size_t{3} * x, bytes.data() + std::size_t{16} * x, 3 * sizeof(float));
     }
   });
 }
 
-void readColor(const Readback& readback, const View& view, Image8& image) {
-  image.width = view.width;
-  image.height = view.height;
-  image.rgba.resize(std::size_t{4} * view.width * view.height);
-  readback.forEachRow([&](std::uint32_t row, std::span<const std::byte> bytes) {
-    std::memcpy(image.rgba.data() + std::size_t{4} * row * view.width, bytes.data(), bytes.size());
-  });
+void readColor(const ViewTargets& targets, const View& view, Picture& picture) {
+  picture.color.width = view.width;
+  picture.color.height = view.height;
+  readValues(targets.readback, view, targets.tile, 4, picture.color.rgba);
+  if (view.linear) {
+    readValues(targets.linear_readback, view, targets.tile, 4, picture.linear);
+  } else {
+    picture.linear.clear();
+  }
 }
 
 void readAovs(const ViewTargets& targets, const View& view, Picture& picture) {
   const auto readback = [&](Aov aov) -> const Readback& {
     return targets.aov_readbacks[static_cast<std::size_t>(aov)];
   };
-  const auto wanted = [&](Aov aov, auto& values) {
-    if (!view.aovs.has(aov)) values.clear();
-    return view.aovs.has(aov);
+  const auto read = [&](Aov aov, auto& values) {
+    if (view.aovs.has(aov)) {
+      readValues(readback(aov), view, targets.tile, 1, values);
+    } else {
+      values.clear();
+    }
   };
-  if (wanted(Aov::kCharacter, picture.character))
-    readChannel(readback(Aov::kCharacter), view, picture.character);
-  if (wanted(Aov::kRegion, picture.region)) readChannel(readback(Aov::kRegion), view, picture.region);
-  if (wanted(Aov::kFace, picture.face)) readChannel(readback(Aov::kFace), view, picture.face);
-  if (wanted(Aov::kDepth, picture.depth)) readChannel(readback(Aov::kDepth), view, picture.depth);
-  if (wanted(Aov::kNormal, picture.normal)) readNormals(readback(Aov::kNormal), view, picture.normal);
+  read(Aov::kCharacter, picture.character);
+  read(Aov::kRegion, picture.region);
+  read(Aov::kFace, picture.face);
+  read(Aov::kDepth, picture.depth);
+  if (view.aovs.has(Aov::kNormal)) {
+    readNormals(readback(Aov::kNormal), view, targets.tile, picture.normal);
+  } else {
+    picture.normal.clear();
+  }
+}
+
+/// The viewport is the whole picture's, also where a tile is drawn.
+void refuseBeyondViewport(const gpu::Device& device, const View& view) {
+  const auto& most = device.limits().maxViewportDimensions;
+  if (view.width <= most[0] && view.height <= most[1]) return;
+  throw SystemError(
+      {.file = {},
+       .where = "Vulkan device " + device.name(),
+       .what = fmt::format("a picture of {} x {} pixels is larger than the {} x {} that it can place",
+                           view.width, view.height, most[0], most[1]),
+       .mend = "make the picture smaller"});
 }
 
 }  // namespace
 
 FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-                     std::uint64_t max_buffer_bytes)
+                     const FrameLimits& limits)
     : device_(device),
       assets_(assets),
       state_(state),
-      max_buffer_bytes_(max_buffer_bytes),
+      limits_(limits),
       layout_(device, assets),
       shadow_pass_(device, layout_, assets),
       color_pass_(device, layout_, assets),
@@ -112,31 +144,50 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
     ENSEMBLE_CHECK(view.width > 0u && view.height > 0u);
     const Clock::time_point start = Clock::now();
     if (i == 0) state_.setTime(seconds);
-    const ShadowFit fit = fitShadowMap(view, state_.bounds());
-    Slot& slot = slotFor(view, fit.size);
-    buildQueues(view, fit);
-    slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, fit);
-    picture.stats.characters_posed = state_.queuePoses(visible_) + state_.queuePoses(casters_);
-    record(view, slot);
-    picture.stats.cpu_ms = millisecondsSince(start);
-    submitAndWait();
-    readColor(slot.targets.readback, view, picture.color);
-    picture.stats.frame_ms = millisecondsSince(start);
-    readStats(view, picture.stats);
-    if (!view.aovs.empty()) recordAovs(view, slot);
-    readAovs(slot.targets, view, picture);
+    drawView(view, start, picture);
   }
 }
 
-FrameLoop::Slot& FrameLoop::slotFor(const View& view, std::uint32_t shadow_size) {
-  const TargetSize size{view.width, view.height, view.samples, shadow_size};
+void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& picture) {
+  refuseBeyondViewport(device_, view);
+  const ShadowFit fit = fitShadowMap(view, state_.bounds());
+  const TileGrid grid(view.width, view.height, limits_.tiles);
+  Slot& slot = slotFor(view, grid, fit.size);
+  FrameStats stats;
+  stats.gpu_mesh_bytes = assets_.meshBytes();
+  findVisible(frustumOf(view), state_.bounds(), visible_);
+  stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
+  buildShadowQueues(view, fit);
+  for (std::uint32_t i = 0; i < grid.count(); ++i) {
+    // The shadow map that the first tile leaves behind serves the others.
+    const bool is_first = i == 0;
+    if (!is_first) start = Clock::now();
+    slot.targets.tile = grid[i];
+    buildQueues(view, slot.targets.tile);
+    slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
+    stats.characters_posed += state_.queuePoses(visible_);
+    if (is_first) stats.characters_posed += state_.queuePoses(casters_);
+    record(view, slot, is_first);
+    stats.cpu_ms += millisecondsSince(start);
+    submitAndWait();
+    readColor(slot.targets, view, picture);
+    stats.frame_ms += millisecondsSince(start);
+    addStats(is_first, stats);
+    if (!view.aovs.empty()) recordAovs(view, slot);
+    readAovs(slot.targets, view, picture);
+  }
+  picture.stats = stats;
+}
+
+FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std::uint32_t shadow_size) {
+  const TargetSize size{grid.tileWidth(), grid.tileHeight(), view.samples, shadow_size};
   auto found = std::find_if(slots_.begin(), slots_.end(),
                             [&](const auto& slot) { return slot->targets.size == size; });
   if (found == slots_.end()) {
     if (slots_.size() == kMostSlots) slots_.erase(slots_.begin());
     color_pass_.prepare(view.samples);
     auto slot = std::make_unique<Slot>(
-        Slot{.targets = ViewTargets(device_, size, max_buffer_bytes_),
+        Slot{.targets = ViewTargets(device_, size, limits_.max_buffer_bytes),
              .view_buffer = gpu::Buffer(device_, sizeof(GpuView), vk::BufferUsageFlagBits::eUniformBuffer,
                                         gpu::Buffer::Kind::kUpload, "a view"),
              .view_set = layout_.makeViewSets(device_, 1),
@@ -149,34 +200,38 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, std::uint32_t shadow_size)
     slots_.push_back(std::move(slot));
     found = slots_.end() - 1;
   }
+  if (view.linear) (*found)->targets.addLinearReadback(device_, limits_.max_buffer_bytes);
   if (!view.aovs.empty()) {
-    (*found)->targets.addAovs(device_, max_buffer_bytes_);
+    (*found)->targets.addAovs(device_, limits_.max_buffer_bytes);
     if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
   }
   return **found;
 }
 
-void FrameLoop::buildQueues(const View& view, const ShadowFit& fit) {
-  findVisible(frustumOf(view), state_.bounds(), visible_);
+void FrameLoop::buildQueues(const View& view, const Tile& tile) {
+  findVisible(frustumOf(view, tile), state_.bounds(), visible_);
+  main_queues_.build(assets_, state_, visible_);
+}
+
+void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
   if (view.light.shadows) {
     findCasters(fit, state_.bounds(), casters_);
   } else {
     casters_.clear();
   }
-  main_queues_.build(assets_, state_, visible_);
   shadow_queues_.build(assets_, state_, casters_);
 }
 
-void FrameLoop::record(const View& view, const Slot& slot) {
+void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   counter_.reset(commands_);
   state_.recordPoses(commands_);
   CrowdDraw draw{
       .assets = &assets_, .layout = &layout_, .queues = &shadow_queues_, .view_set = slot.view_set[0]};
-  shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow);
+  if (draws_shadows) shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow);
   draw.queues = &main_queues_;
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain);
-  post_pass_.record(commands_, slot.targets, slot.post_set[0]);
+  post_pass_.record(commands_, slot.targets, slot.post_set[0], view.linear);
   ENSEMBLE_VK(commands_.end());
 }
 
@@ -199,17 +254,15 @@ void FrameLoop::submitAndWait() {
   ENSEMBLE_VK(device_.handle().resetFences(*fence_));
 }
 
-void FrameLoop::readStats(const View& view, FrameStats& stats) const {
-  stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
-  stats.gpu_mesh_bytes = assets_.meshBytes();
-  const auto pass = [&](const QueueBuffers& queues, Pass number) {
-    return PassStats{.draw_calls = queues.counts().draw_calls,
-                     .triangles = queues.counts().triangles,
-                     .vertex_invocations = counter_.result(device_, number)};
+void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
+  const auto add = [&](const QueueBuffers& queues, Pass number, PassStats& pass) {
+    pass.draw_calls += queues.counts().draw_calls;
+    pass.triangles += queues.counts().triangles;
+    const std::optional<std::uint64_t> invocations = counter_.result(device_, number);
+    if (invocations) pass.vertex_invocations = pass.vertex_invocations.value_or(0) + *invocations;
   };
-  stats.main = pass(main_queues_, kMain);
-  stats.shadow = pass(shadow_queues_, kShadow);
-  if (!view.light.shadows && stats.shadow.vertex_invocations) stats.shadow.vertex_invocations = 0;
+  add(main_queues_, kMain, stats.main);
+  if (drew_shadows) add(shadow_queues_, kShadow, stats.shadow);
 }
 
 }  // namespace ensemble

@@ -1,6 +1,7 @@
 // A frame's stages in order: state, queues, shadow, colour, AOVs, sRGB, host.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,10 +18,14 @@
 
 namespace ensemble {
 
+struct FrameLimits {
+  std::uint64_t max_buffer_bytes = 0;
+  TileLimits tiles = {};
+};
+
 class FrameLoop {
  public:
-  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-            std::uint64_t max_buffer_bytes);
+  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state, const FrameLimits& limits);
 
   /// Draws views at a time, one after the other. @throws SystemError if targets don't fit
   void render(std::span<const View> views, double seconds, std::span<Picture> pictures);
@@ -34,17 +39,21 @@ class FrameLoop {
   };
   enum Pass : std::uint32_t { kShadow, kMain, kPassCount };
 
-  Slot& slotFor(const View& view, std::uint32_t shadow_size);
-  void buildQueues(const View& view, const ShadowFit& fit);
-  void record(const View& view, const Slot& slot);
+  Slot& slotFor(const View& view, const TileGrid& grid, std::uint32_t shadow_size);
+  /// Draws a view at the state's time, tile by tile; `start` is when its turn came.
+  void drawView(const View& view, std::chrono::steady_clock::time_point start, Picture& picture);
+  void buildQueues(const View& view, const Tile& tile);
+  void buildShadowQueues(const View& view, const ShadowFit& fit);
+  void record(const View& view, const Slot& slot, bool draws_shadows);
   void recordAovs(const View& view, const Slot& slot);
   void submitAndWait();
-  void readStats(const View& view, FrameStats& stats) const;
+  /// Adds what the last submission drew.
+  void addStats(bool drew_shadows, FrameStats& stats) const;
 
   gpu::Device& device_;
   const CrowdAssets& assets_;
   CrowdState& state_;
-  std::uint64_t max_buffer_bytes_;
+  FrameLimits limits_;
   CrowdLayout layout_;
   ShadowPass shadow_pass_;
   ColorPass color_pass_;

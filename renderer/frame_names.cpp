@@ -22,19 +22,29 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-void checkExtension(const std::string& output, const std::string& extension) {
+PictureFormat formatOf(const std::string& output, const std::string& extension) {
   const std::string lower = lowerCase(extension);
-  if (lower == ".png") return;
-  if (lower == ".exr" || lower == ".mp4") {
-    fail(output, fmt::format("colour as {} is not supported yet", lower),
-         "write PNG: name.png, name_%04d.png or a folder dir/");
-  }
+  if (lower == ".png") return PictureFormat::kPng;
+  if (lower == ".exr") return PictureFormat::kExr;
+  if (lower == ".mp4") return PictureFormat::kVideo;
   if (lower.empty()) {
     fail(output, "the name has no extension",
          fmt::format("write {}/ for a folder, or {}.png", output, output));
   }
   fail(output, fmt::format("pictures can't be written as {}", quotedName(extension)),
-       "write PNG: name.png, name_%04d.png or a folder dir/");
+       "write .png, .exr or .mp4: name.png, name_%04d.exr, name.mp4, or a folder dir/");
+}
+
+const char* extensionOf(PictureFormat format) {
+  switch (format) {
+    case PictureFormat::kPng:
+      return ".png";
+    case PictureFormat::kExr:
+      return ".exr";
+    case PictureFormat::kVideo:
+      return ".mp4";
+  }
+  return "";
 }
 
 /// What follows a '%': "%" itself, or a number's width.
@@ -115,11 +125,17 @@ FrameNames::FrameNames(const std::string& output, std::uint32_t frame_count) {
   folder_ = path.parent_path();
   const std::string name = path.filename().string();
   const std::string extension = path.extension().string();
-  checkExtension(output, extension);
+  format_ = formatOf(output, extension);
   parsePattern(output, std::string_view(name).substr(0, name.size() - extension.size()));
+  if (format_ == PictureFormat::kVideo) {
+    if (is_numbered_) fail(output, "a video holds all frames", "write name.mp4 without a frame's number");
+    digits_ = 4;
+    return;
+  }
   if (is_numbered_ || frame_count <= 1) return;
   fail(output, fmt::format("{} frames don't fit one file", frame_count),
-       fmt::format("write {}_%04d.png", output.substr(0, output.size() - extension.size())));
+       fmt::format("write {}_%04d{}", output.substr(0, output.size() - extension.size()),
+                   extensionOf(format_)));
 }
 
 void FrameNames::parsePattern(const std::string& output, std::string_view stem) {
@@ -158,11 +174,13 @@ void FrameNames::createFolder() const {
 }
 
 std::string FrameNames::stem(std::uint32_t frame) const {
+  if (format_ == PictureFormat::kVideo) return fmt::format("{}_{:0{}}", before_, frame, digits_);
   return is_numbered_ ? fmt::format("{}{:0{}}{}", before_, frame, digits_, after_) : before_;
 }
 
 std::filesystem::path FrameNames::picture(std::uint32_t frame) const {
-  return folder_ / (stem(frame) + ".png");
+  const std::string name = format_ == PictureFormat::kVideo ? before_ : stem(frame);
+  return folder_ / (name + extensionOf(format_));
 }
 
 std::filesystem::path FrameNames::aov(std::uint32_t frame, Aov aov) const {

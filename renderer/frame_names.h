@@ -18,17 +18,26 @@ const char* toString(Aov aov);  ///< "character", "region", "face", "depth", "no
 /// @throws UsageError "--aov ...: ..." for an unknown kind, naming the nearest.
 std::vector<Aov> parseAovs(const std::string& list);
 
+/// What the colour of a frame becomes.
+enum class PictureFormat : std::uint8_t {
+  kPng,    ///< 8-bit sRGB
+  kExr,    ///< linear light
+  kVideo,  ///< a frame of the one MP4
+};
+
 /// Where the frames of `render -o PATH` go.
 ///
-/// `dir/` (or an existing folder): dir/frame_0000.png and on; `name_%04d.png`: the frame's number in
-/// place of the one `%d` or `%04d` in the file's name, `%%` being a percent sign; `name.png`: one frame.
+/// `dir/` (or an existing folder): dir/frame_0000.png and on; `name_%04d.png` or `.exr`: the frame's
+/// number in place of the one `%d` or `%04d` in the file's name, `%%` being a percent sign; `name.png` or
+/// `.exr`: one frame; `name.mp4`: all of them, and what each has besides is named name_0000.
 class FrameNames {
  public:
   /// @param frame_count frames that will be written
   /// @throws UsageError "-o PATH: ..." for a pattern, an extension or a number of frames it can't be.
   FrameNames(const std::string& output, std::uint32_t frame_count);
 
-  std::filesystem::path picture(std::uint32_t frame) const;
+  PictureFormat format() const { return format_; }
+  std::filesystem::path picture(std::uint32_t frame) const;        ///< the video, where it is one
   std::filesystem::path aov(std::uint32_t frame, Aov aov) const;   ///< NAME.character.exr
   std::filesystem::path ids(std::uint32_t frame) const;            ///< NAME.ids.json
   const std::filesystem::path& folder() const { return folder_; }  ///< empty: the current one
@@ -41,6 +50,7 @@ class FrameNames {
 
   std::filesystem::path folder_;
   std::string before_, after_;  ///< of the number, without the extension
+  PictureFormat format_ = PictureFormat::kPng;
   bool is_numbered_ = false;
   int digits_ = 0;  ///< least digits, filled with zeros
 };

@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 
 #include <algorithm>
 #include <cstring>
@@ -54,6 +55,10 @@ Imf::Slice sliceOf(const ExrChannel& channel, std::size_t width, std::size_t pix
     ENSEMBLE_CHECK(ids->size() >= needed);
     return makeSlice(Imf::UINT, *ids, channel.stride, width);
   }
+  if (const auto* const halves = std::get_if<std::span<const std::uint16_t>>(&channel.values)) {
+    ENSEMBLE_CHECK(halves->size() >= needed);
+    return makeSlice(Imf::HALF, *halves, channel.stride, width);
+  }
   const auto& floats = std::get<std::span<const float>>(channel.values);
   ENSEMBLE_CHECK(floats.size() >= needed);
   return makeSlice(Imf::FLOAT, floats, channel.stride, width);
@@ -81,13 +86,14 @@ std::vector<std::byte> encodeChannels(std::uint32_t width, std::uint32_t height,
 }  // namespace
 
 std::vector<std::byte> encodeExr(std::uint32_t width, std::uint32_t height,
-                                 std::span<const ExrChannel> channels) {
+                                 std::span<const ExrChannel> channels, ExrContent content) {
   constexpr std::uint32_t kMaxSide = 16384;
   ENSEMBLE_CHECK(width >= 1u && width <= kMaxSide);
   ENSEMBLE_CHECK(height >= 1u && height <= kMaxSide);
   ENSEMBLE_CHECK(!channels.empty());
   Imf::Header header(static_cast<int>(width), static_cast<int>(height));
   header.compression() = Imf::ZIP_COMPRESSION;
+  if (content == ExrContent::kRec709Light) Imf::addChromaticities(header, Imf::Chromaticities());
   Imf::FrameBuffer buffer;
   for (const ExrChannel& channel : channels) {
     ENSEMBLE_CHECK(header.channels().findChannel(channel.name) == nullptr);
@@ -96,6 +102,28 @@ std::vector<std::byte> encodeExr(std::uint32_t width, std::uint32_t height,
     buffer.insert(channel.name, slice);
   }
   return encodeChannels(width, height, header, buffer);
+}
+
+std::span<const char* const> exrChannelsOf(Aov aov) {
+  static constexpr const char* kId[] = {"id"};
+  static constexpr const char* kDepth[] = {"Z"};
+  static constexpr const char* kNormal[] = {"N.X", "N.Y", "N.Z"};
+  if (aov == Aov::kDepth) return kDepth;
+  if (aov == Aov::kNormal) return kNormal;
+  return kId;
+}
+
+std::span<const char* const> exrChannelsOfLight() {
+  static constexpr const char* kLight[] = {"A", "B", "G", "R"};
+  return kLight;
+}
+
+void writeLinearPicture(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+                        std::span<const std::uint16_t> rgba) {
+  ENSEMBLE_CHECK(rgba.size() == std::size_t{4} * width * height);
+  const ExrChannel channels[] = {
+      {"R", rgba, 4}, {"G", rgba.subspan(1), 4}, {"B", rgba.subspan(2), 4}, {"A", rgba.subspan(3), 4}};
+  writeFileAtomically(file, encodeExr(width, height, channels, ExrContent::kRec709Light));
 }
 
 void writePicture(const std::filesystem::path& file, const Image8& image) {

@@ -34,7 +34,7 @@ gpu::DescriptorSets PostPass::makeSet(const gpu::Device& device, const ViewTarge
 }
 
 void PostPass::record(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
-                      vk::DescriptorSet set) const {
+                      vk::DescriptorSet set, bool reads_linear) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   gpu::recordBarrier(commands, targets.srgb,
@@ -55,6 +55,15 @@ void PostPass::record(const vk::raii::CommandBuffer& commands, const ViewTargets
                       .from = vk::ImageLayout::eGeneral,
                       .to = vk::ImageLayout::eTransferSrcOptimal});
   targets.readback.record(commands, targets.srgb);
+  if (!reads_linear) return;
+  gpu::recordBarrier(commands, targets.linear,
+                     {.from_stage = Stage::eComputeShader | Stage::eColorAttachmentOutput,
+                      .to_stage = Stage::eTransfer,
+                      .from_access = Access::eColorAttachmentWrite,
+                      .to_access = Access::eTransferRead,
+                      .from = vk::ImageLayout::eShaderReadOnlyOptimal,
+                      .to = vk::ImageLayout::eTransferSrcOptimal});
+  targets.linear_readback.record(commands, targets.linear);
 }
 
 }  // namespace ensemble

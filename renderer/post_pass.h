@@ -12,8 +12,9 @@ class PostPass {
 
   /// A descriptor set for some targets.
   gpu::DescriptorSets makeSet(const gpu::Device& device, const ViewTargets& targets) const;
-  void record(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
-              vk::DescriptorSet set) const;
+  /// @param reads_linear the linear picture too goes to the host. @pre targets.addLinearReadback() then
+  void record(const vk::raii::CommandBuffer& commands, const ViewTargets& targets, vk::DescriptorSet set,
+              bool reads_linear) const;
 
  private:
   vk::raii::Sampler sampler_ = nullptr;

@@ -116,7 +116,9 @@ struct Renderer::Impl {
     next.assets = std::make_unique<CrowdAssets>(device, input);
     next.numbers.first_garment = next.assets->firstGarmentNumber();
     next.state = std::make_unique<CrowdState>(device, *next.crowd, animation, options.max_buffer_bytes);
-    next.frames = std::make_unique<FrameLoop>(device, *next.assets, *next.state, options.max_buffer_bytes);
+    next.frames = std::make_unique<FrameLoop>(
+        device, *next.assets, *next.state,
+        FrameLimits{.max_buffer_bytes = options.max_buffer_bytes, .tiles = options.tiles});
     loaded.emplace(std::move(next));
   }
 

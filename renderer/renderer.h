@@ -14,6 +14,7 @@
 #include "core/scene.h"
 #include "core/wardrobe.h"
 #include "renderer/crowd.h"
+#include "renderer/tile_grid.h"
 #include "renderer/view.h"
 
 namespace ensemble {
@@ -22,6 +23,9 @@ struct RendererOptions {
   bool validate = false;                          ///< collect what the validation layer says
   std::uint64_t memory_limit = 0;                 ///< bytes on the device; 0: what it has
   std::uint64_t max_buffer_bytes = 128ull << 20;  ///< no buffer of a crowd grows beyond; more are made
+  /// Larger pictures are drawn tile by tile. These limits, not the device's, belong to what a picture is:
+  /// where a tile begins decides how coordinates round, so that others move its last bits.
+  TileLimits tiles = {};
 };
 
 /// How AOVs number garments. Regions of a template are 1, 2, ...
@@ -49,6 +53,8 @@ class Renderer {
   /// calls. Equal depths go to what is drawn first: garments, then body, in the lists' order.
   /// After the first call with the same views it allocates nothing on this thread.
   /// @param pictures one for each view @pre load() came before
+  /// A picture larger than RendererOptions::tiles is drawn tile by tile, with the shadow map of the whole;
+  /// its statistics are sums over the tiles.
   /// @throws SystemError if the device fails or a view does not fit
   void render(std::span<const View> views, double seconds, std::span<Picture> pictures);
 

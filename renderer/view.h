@@ -37,6 +37,7 @@ struct View {
   BackgroundKind background = BackgroundKind::kSky;
   Vec3 background_color{0.0f};  ///< sRGB, for BackgroundKind::kColor
   AovSet aovs;
+  bool linear = false;  ///< Picture::linear is wanted too
 
   bool drawsGround() const { return ground && background != BackgroundKind::kTransparent; }
 };
@@ -47,6 +48,9 @@ View viewOf(const Scene& scene, double seconds = 0.0);
 /// A view's pictures; rows from the top. Given again, its memory is used again.
 struct Picture {
   Image8 color;
+  /// Where the view asks for it: linear light, RGBA, half-precision bits, 4 per pixel, colour multiplied
+  /// by alpha. The same picture as `color`, before it was clamped and encoded.
+  std::vector<std::uint16_t> linear;
   // AOVs, empty unless asked for; one sample at each pixel's centre.
   std::vector<std::uint32_t> character;  ///< 0: nobody; else 1 + number
   std::vector<std::uint32_t> region;     ///< 1 + the template's region; garments after (AovNumbers)

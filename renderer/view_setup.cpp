@@ -109,10 +109,17 @@ bool Frustum::touches(const Sphere& sphere) const {
   return true;
 }
 
-Frustum frustumOf(const View& view) {
+Frustum frustumOf(const View& view) { return frustumOf(view, wholeOf(view)); }
+
+Frustum frustumOf(const View& view, const Tile& tile) {
   const Mat4 rows = glm::transpose(clipFromWorld(view));
-  Frustum frustum{
-      {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]}};
+  const auto ndc = [](std::uint32_t pixel, std::uint32_t size) {
+    return 2.0f * static_cast<float>(pixel) / static_cast<float>(size) - 1.0f;
+  };
+  const float left = ndc(tile.x, view.width), right = ndc(tile.x + tile.width, view.width);
+  const float top = ndc(tile.y, view.height), bottom = ndc(tile.y + tile.height, view.height);
+  Frustum frustum{{rows[0] - left * rows[3], right * rows[3] - rows[0], rows[1] - top * rows[3],
+                   bottom * rows[3] - rows[1], rows[3] - rows[2]}};
   for (Vec4& plane : frustum.planes) plane /= glm::length(Vec3(plane));
   return frustum;
 }
@@ -168,7 +175,7 @@ void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vect
   }
 }
 
-GpuView makeGpuView(const View& view, const ShadowFit& fit) {
+GpuView makeGpuView(const View& view, const Tile& tile, const ShadowFit& fit) {
   const CameraFrame frame = cameraFrame(view.camera);
   const float tan_y = std::tan(0.5f * view.camera.fov_y);
   const float pixel = 2.0f * tan_y / static_cast<float>(view.height);  // on a plane one metre away
@@ -189,8 +196,8 @@ GpuView makeGpuView(const View& view, const ShadowFit& fit) {
   gpu.to_sun = Vec4(toSun(view.light), static_cast<float>(fit.size));
   gpu.sun_color = Vec4(kSun, is_sky ? 1.0f : 0.0f);
   gpu.ambient_up = Vec4(kAmbientUp, is_clear ? 0.0f : 1.0f);
-  gpu.ambient_down = Vec4(kAmbientDown, 0.0f);
-  gpu.horizon = Vec4(horizon, 0.0f);
+  gpu.ambient_down = Vec4(kAmbientDown, static_cast<float>(tile.x));
+  gpu.horizon = Vec4(horizon, static_cast<float>(tile.y));
   gpu.zenith = Vec4(is_sky ? kZenith : horizon, 0.0f);
   return gpu;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/sphere.h"
+#include "renderer/tile_grid.h"
 #include "renderer/view.h"
 #include "shaders/shared/crowd_types.h"
 
@@ -20,12 +21,16 @@ CameraFrame cameraFrame(const SceneCamera& camera);
 /// Reversed depth without a far plane: depth is near_plane / distance along the view axis.
 Mat4 clipFromWorld(const View& view);
 
+inline Tile wholeOf(const View& view) { return {0, 0, view.width, view.height}; }
+
 /// The planes that bound a picture; a point is inside where all dot(plane, (p, 1)) >= 0.
 struct Frustum {
   Vec4 planes[5];  ///< unit normals: left, right, bottom, top, near
   bool touches(const Sphere& sphere) const;
 };
 Frustum frustumOf(const View& view);
+/// Those that bound a tile of it.
+Frustum frustumOf(const View& view, const Tile& tile);
 
 /// Numbers of the people whose bounds touch the picture, ascending. Appends nothing twice.
 void findVisible(const Frustum& frustum, std::span<const Sphere> bounds, std::vector<std::uint32_t>& visible);
@@ -43,7 +48,7 @@ ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds);
 /// Numbers of the people who may cast into a shadow map, ascending.
 void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vector<std::uint32_t>& casters);
 
-/// What the shaders read of a view.
-GpuView makeGpuView(const View& view, const ShadowFit& fit);
+/// What the shaders read of a view when they draw a tile of it.
+GpuView makeGpuView(const View& view, const Tile& tile, const ShadowFit& fit);
 
 }  // namespace ensemble

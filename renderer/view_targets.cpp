@@ -8,6 +8,7 @@ namespace ensemble {
 namespace {
 
 constexpr std::array<std::uint32_t, 5> kAovPixelBytes = {4, 4, 4, 4, 16};
+constexpr std::uint32_t kLinearPixelBytes = 8;
 
 }  // namespace
 
@@ -59,10 +60,14 @@ ViewTargets::ViewTargets(gpu::Device& device, const TargetSize& target_size, std
                            .usage = Usage::eDepthStencilAttachment | Usage::eSampled},
                           "the shadow map");
   if (size.samples > 1) samples = image(kColorFormat, Usage::eColorAttachment, size.samples);
-  linear = image(kColorFormat, Usage::eColorAttachment | Usage::eSampled, 1);
+  linear = image(kColorFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc, 1);
   depth = image(kDepthFormat, Usage::eDepthStencilAttachment, size.samples);
   srgb = image(vk::Format::eR8G8B8A8Unorm, Usage::eStorage | Usage::eTransferSrc, 1);
   readback = Readback(device, srgb, 4, max_buffer_bytes);
+}
+
+void ViewTargets::addLinearReadback(gpu::Device& device, std::uint64_t max_buffer_bytes) {
+  if (!linear_readback) linear_readback = Readback(device, linear, kLinearPixelBytes, max_buffer_bytes);
 }
 
 void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
@@ -90,6 +95,16 @@ void recordFullViewport(const vk::raii::CommandBuffer& commands, std::uint32_t w
                                        .minDepth = 0.0f,
                                        .maxDepth = 1.0f});
   commands.setScissor(0, vk::Rect2D{.extent = {width, height}});
+}
+
+void recordTileViewport(const vk::raii::CommandBuffer& commands, const View& view, const Tile& tile) {
+  commands.setViewport(0, vk::Viewport{.x = -static_cast<float>(tile.x),
+                                       .y = -static_cast<float>(tile.y),
+                                       .width = static_cast<float>(view.width),
+                                       .height = static_cast<float>(view.height),
+                                       .minDepth = 0.0f,
+                                       .maxDepth = 1.0f});
+  commands.setScissor(0, vk::Rect2D{.extent = {tile.width, tile.height}});
 }
 
 }  // namespace ensemble

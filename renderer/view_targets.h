@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/view.h"
+#include "renderer/view_setup.h"
 #include "renderer/vk/memory.h"
 
 namespace ensemble {
@@ -56,14 +56,18 @@ struct ViewTargets {
   ViewTargets(gpu::Device& device, const TargetSize& target_size, std::uint64_t max_buffer_bytes);
   /// Adds what AOVs need, once.
   void addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes);
+  /// Adds what brings the linear picture to the host, once.
+  void addLinearReadback(gpu::Device& device, std::uint64_t max_buffer_bytes);
 
   TargetSize size;
+  Tile tile;  ///< what they are drawn into now; as large as they are, or smaller at the picture's edges
   gpu::Image shadow_map;
   gpu::Image samples;  ///< the colour pass's samples; none with one sample
   gpu::Image linear;   ///< resolved, linear, premultiplied
   gpu::Image depth;
   gpu::Image srgb;  ///< what is read back
   Readback readback;
+  Readback linear_readback;
 
   gpu::Image aov_depth;
   std::array<gpu::Image, 5> aovs;
@@ -72,5 +76,7 @@ struct ViewTargets {
 
 /// A viewport and a scissor over a whole target.
 void recordFullViewport(const vk::raii::CommandBuffer& commands, std::uint32_t width, std::uint32_t height);
+/// The viewport of the whole picture, moved so that the tile falls onto the target, and the tile's scissor.
+void recordTileViewport(const vk::raii::CommandBuffer& commands, const View& view, const Tile& tile);
 
 }  // namespace ensemble

@@ -28,6 +28,7 @@ HIDDEN = {
     r"(tiny_gltf\.h|draco/)": ["core/gltf_", "tests/core"],
     r"(yaml-cpp/)": ["core", "assetpipe", "tests"],
     r"(openssl/)": ["core/hash.cpp"],
+    r"lib(av|sw)[a-z]+/": ["renderer/video_writer.cpp", "tests/renderer"],
     r"(CLI/)": ["cli", "tests/cli"],
 }
 

@@ -15,9 +15,9 @@ set -euo pipefail
 build_packages=(
   build-essential cmake ninja-build pkg-config ccache
   libvulkan-dev mesa-vulkan-drivers glslang-tools
-  libcli11-dev libdraco-dev libfmt-dev libglm-dev libjpeg62-turbo-dev libmeshoptimizer-dev
-  libopenexr-dev libpng-dev libspdlog-dev libssl-dev libtinygltf-dev libvalijson-dev libyaml-cpp-dev
-  nlohmann-json3-dev
+  libavcodec-dev libavformat-dev libavutil-dev libcli11-dev libdraco-dev libfmt-dev libglm-dev
+  libjpeg62-turbo-dev libmeshoptimizer-dev libopenexr-dev libpng-dev libspdlog-dev libssl-dev
+  libswscale-dev libtinygltf-dev libvalijson-dev libyaml-cpp-dev nlohmann-json3-dev
 )
 # GoogleTest, the validation layers, and what the proofs ask for a second opinion: Blender, and the
 # Khronos glTF validator and Draco's own encoder, which come through npm.

@@ -30,7 +30,7 @@ float slabBrightness(vec2 slab) {
 }
 
 void main() {
-  vec3 ray = view.ray_origin.xyz + gl_FragCoord.x * view.ray_x.xyz + gl_FragCoord.y * view.ray_y.xyz;
+  vec3 ray = viewRay();
   float down = ray.y * view.camera.y < 0.0 ? -view.camera.y / ray.y : 1.0e6;
   vec3 from_camera = ray * min(down, 1.0e6);
   vec2 world = view.camera.xz + from_camera.xz;

@@ -9,6 +9,6 @@ layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform
 layout(location = 0) out vec4 color;
 
 void main() {
-  vec3 ray = view.ray_origin.xyz + gl_FragCoord.x * view.ray_x.xyz + gl_FragCoord.y * view.ray_y.xyz;
+  vec3 ray = viewRay();
   color = vec4(skyColor(ray), 1.0);
 }

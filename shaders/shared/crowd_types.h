@@ -142,8 +142,8 @@ struct GpuView {
   vec4 to_sun;             ///< unit; w: size of the shadow map, texels
   vec4 sun_color;          ///< linear; w: 1 draws the sky's gradient, 0 its horizon everywhere
   vec4 ambient_up;         ///< linear light from above; w: alpha of the background
-  vec4 ambient_down;       ///< linear light from below
-  vec4 horizon;            ///< linear; distance fades into it
+  vec4 ambient_down;       ///< linear light from below; w: the picture's column at the target's left edge
+  vec4 horizon;            ///< linear; distance fades into it; w: the picture's row at the target's top
   vec4 zenith;             ///< linear
 };
 

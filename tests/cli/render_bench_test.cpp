@@ -1,7 +1,11 @@
 // `ensemble render` and `ensemble bench` as a user runs them, on the kept wardrobe of version 1.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
@@ -114,12 +118,101 @@ TEST_F(RenderCommand, WithoutADeviceOneLineTellsHowToMend) {
   EXPECT_THAT(version.out, HasSubstr("Vulkan device: none"));
 }
 
-TEST_F(RenderCommand, APictureThatDoesNotFitIsRefusedWithItsSize) {
+TEST_F(RenderCommand, APictureLargerThanATileIsDrawn) {
   if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result =
-      run("render scene.yaml -o one.png --frames 0 --set output.width=16384 --set output.height=16384");
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("a picture of 16384 x 16384 pixels of 8.00 GiB does not fit"));
+      run("render scene.yaml -o one.png --frames 0 --set output.width=16384 --set output.height=20 --json "
+          "f.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(bytes("one.png").substr(16, 8), std::string("\0\0\x40\0\0\0\0\x14", 8));
+  EXPECT_EQ(json("f.json")["frames"][0]["characters_drawn"], 6);
+}
+
+TEST_F(RenderCommand, WritesLinearPicturesAndVideos) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  ProgramResult result = run("render scene.yaml -o l/a_%02d.exr --frames 1-2 --json figures.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json("figures.json")["frames"][1]["file"], "l/a_02.exr");
+  EXPECT_THAT(bytes("l/a_02.exr"), StartsWith("\x76\x2f\x31\x01"));
+  EXPECT_THAT(bytes("l/a_02.exr"), HasSubstr("chromaticities"));
+  result = run("render scene.yaml -o v/a.mp4 --frames 3,1-2 --aov character --json figures.json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json("figures.json")["frames"].size(), 3u);
+  EXPECT_EQ(json("figures.json")["frames"][0]["index"], 3);
+  EXPECT_EQ(json("figures.json")["frames"][0]["file"], "v/a.mp4");
+  EXPECT_THAT(bytes("v/a.mp4").substr(4), StartsWith("ftyp"));
+  EXPECT_TRUE(fs::exists(folder_ / "v" / "a_0003.character.exr"));
+  EXPECT_TRUE(fs::exists(folder_ / "v" / "a_0001.ids.json"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "v"), {}), 7);
+  ASSERT_EQ(run("render scene.yaml -o again.mp4 --frames 3,1-2").exit_code, 0);
+  EXPECT_EQ(bytes("again.mp4"), bytes("v/a.mp4"));
+}
+
+TEST_F(RenderCommand, AVideoOfWhatItCantHoldIsRefused) {
+  EXPECT_EQ(
+      run("render scene.yaml -o a.mp4 --resume").err,
+      "ensemble: --resume: a video is written as a whole and can't be gone on with; leave --resume out, "
+      "or write name_%04d.png and make the video of them\n");
+  EXPECT_EQ(run("render scene.yaml -o a.mp4 --resume").exit_code, 2);
+  EXPECT_EQ(run("render scene.yaml -o a.mp4 --set output.width=95").exit_code, 2);
+  EXPECT_EQ(run("render scene.yaml -o a.mp4 --set output.background=transparent").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "a.mp4"));
+}
+
+/// Files by name, with their bytes.
+std::map<std::string, std::string> filesIn(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    std::ifstream stream(entry.path(), std::ios::binary);
+    files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(stream), {}};
+  }
+  return files;
+}
+
+TEST_F(RenderCommand, ResumesWhereItWasKilled) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const std::string options = "--set output.frames=40 --aov face,depth ";
+  ASSERT_EQ(run("render scene.yaml -o whole/ " + options).exit_code, 0);
+  fs::create_directory(folder_ / "cut");
+  // Kill it as soon as its fifth frame is there.
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(folder_.path().c_str()) != 0) _exit(127);
+    execl(ENSEMBLE_PROGRAM, "ensemble", "render", "scene.yaml", "-o", "cut/", "--set", "output.frames=40",
+          "--aov", "face,depth", static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  ASSERT_GT(child, 0);
+  while (!fs::exists(folder_ / "cut" / "frame_0004.png") && waitpid(child, nullptr, WNOHANG) == 0)
+    usleep(500);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "cut" / "frame_0004.png"));
+  ASSERT_FALSE(fs::exists(folder_ / "cut" / "frame_0039.ids.json")) << "it was killed too late";
+  // And some harm besides: what is cut off, missing or of another scene is made again.
+  fs::resize_file(folder_ / "cut" / "frame_0000.png", fs::file_size(folder_ / "cut" / "frame_0000.png") - 1);
+  fs::resize_file(folder_ / "cut" / "frame_0001.face.exr", 300);
+  fs::remove(folder_ / "cut" / "frame_0002.depth.exr");
+  std::ofstream(folder_ / "cut" / "frame_0003.ids.json") << "{}\n";
+
+  const ProgramResult result = run("render scene.yaml -o cut/ --resume --json figures.json " + options);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::map<std::string, std::string> files = filesIn(folder_ / "cut");
+  std::erase_if(files, [](const auto& file) { return file.first.starts_with('.'); });  // killed writers'
+  EXPECT_TRUE(files == filesIn(folder_ / "whole"));
+  const nlohmann::json figures = json("figures.json");
+  EXPECT_EQ(figures["frames"].size() + figures["skipped"].size(), 40u);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(figures["frames"][i]["index"], i);
+
+  ASSERT_EQ(run("render scene.yaml -o cut/ --resume --json figures.json " + options).exit_code, 0);
+  EXPECT_EQ(json("figures.json")["frames"].size(), 0u);
+  EXPECT_EQ(json("figures.json")["skipped"].size(), 40u);
+  EXPECT_EQ(json("figures.json")["skipped"][39], 39);
+  ASSERT_EQ(run("render scene.yaml -o cut/ --resume --json figures.json --frames 3 --set output.width=98 " +
+                options)
+                .exit_code,
+            0);
+  EXPECT_EQ(json("figures.json")["skipped"].size(), 0u) << "of another size";
 }
 
 TEST_F(RenderCommand, WrongUsageIsRefused) {

@@ -47,6 +47,46 @@ TEST(AtomicFile, WritesToDevicesAndThroughLinks) {
   EXPECT_EQ(contentOf(folder / "target"), "new");
 }
 
+TEST(FileAside, IsRenamedWhenItIsDoneAndGoneWhenItIsNot) {
+  const testing::TemporaryFolder folder;
+  const auto entries = [&] { return std::distance(std::filesystem::directory_iterator(folder.path()), {}); };
+  writeFileAtomically(folder / "a", std::string_view("old"));
+  {
+    const FileAside aside(folder / "a");
+    std::ofstream(aside.aside()) << "half";
+    EXPECT_EQ(entries(), 2);
+  }
+  EXPECT_EQ(contentOf(folder / "a"), "old");
+  EXPECT_EQ(entries(), 1);
+  std::filesystem::create_symlink("a", folder / "link");
+  {
+    FileAside aside(folder / "link");
+    std::ofstream(aside.aside()) << "new";
+    EXPECT_EQ(contentOf(folder / "a"), "old");
+    aside.commit();
+  }
+  EXPECT_EQ(contentOf(folder / "a"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST(FileAside, RefusesWhatItCantReplace) {
+  const auto message = [](const std::filesystem::path& file) -> std::string {
+    try {
+      const FileAside aside(file);
+    } catch (const SystemError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message("/dev/null"),
+            "/dev/null: is not a regular file, and can't be replaced by one; choose another name");
+  const testing::TemporaryFolder folder;
+  const std::string missing = (folder / "none/a").string();
+  EXPECT_EQ(message(missing),
+            missing + ": can't be written: No such file or directory; make its folder first");
+}
+
 TEST(AtomicFile, TellsWhyItCantWrite) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder / "none/a.txt").string();

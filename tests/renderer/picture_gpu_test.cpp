@@ -1,6 +1,8 @@
 // Colours: backgrounds, coverage, textures, cut-outs, light.
 #include "tests/renderer/gpu_fixture.h"
 
+#include <cmath>
+
 namespace ensemble {
 namespace {
 
@@ -45,6 +47,52 @@ TEST_F(PictureTest, APlainBackgroundIsTheColourThatWasAskedFor) {
   view.ground = false;
   const Picture picture = draw(*makeRenderer(scene), view);
   EXPECT_THAT(std::span(picture.color.rgba).first(4), ::testing::ElementsAre(51, 102, 204, 255));
+}
+
+/// The value of half-precision bits (IEEE 754-2008), finite ones.
+float floatOf(std::uint16_t bits) {
+  const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
+  const float value = exponent == 0 ? std::ldexp(static_cast<float>(mantissa), -24)
+                                    : std::ldexp(static_cast<float>(mantissa + 1024), exponent - 25);
+  return (bits & 0x8000u) != 0 ? -value : value;
+}
+
+/// IEC 61966-2-1, 0 .. 255.
+float encodeSrgb(float linear) {
+  const float c = std::clamp(linear, 0.0f, 1.0f);
+  return 255.0f * (c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f);
+}
+
+// The linear picture, encoded by the standard's formula, is the 8-bit picture within a step.
+TEST_F(PictureTest, TheLinearPictureIsThePictureBeforeItsEncoding) {
+  Scene scene = onePerson("tunic");
+  View view = viewOf(scene);
+  view.samples = 4;
+  const auto renderer = makeRenderer(scene);
+  EXPECT_THAT(draw(*renderer, view).linear, ::testing::IsEmpty()) << "nobody asked";
+  for (const BackgroundKind background : {BackgroundKind::kSky, BackgroundKind::kTransparent}) {
+    view.background = background;
+    view.linear = true;
+    const Picture picture = draw(*renderer, view);
+    ASSERT_EQ(picture.linear.size(), picture.color.rgba.size());
+    std::size_t soft = 0;
+    for (std::size_t i = 0; i < picture.linear.size(); i += 4) {
+      const float alpha = floatOf(picture.linear[i + 3]);
+      ASSERT_NEAR(255.0f * alpha, picture.color.rgba[i + 3], 0.51f) << i;
+      soft += alpha > 0.0f && alpha < 1.0f;
+      for (std::size_t k = i; k < i + 3; ++k) {
+        const float premultiplied = floatOf(picture.linear[k]);
+        if (alpha == 0.0f) {
+          ASSERT_EQ(premultiplied, 0.0f) << k;
+        } else {
+          ASSERT_NEAR(encodeSrgb(premultiplied / alpha), picture.color.rgba[k], 1.0f) << k;
+        }
+      }
+    }
+    EXPECT_EQ(soft > 50, background == BackgroundKind::kTransparent) << soft;
+  }
+  view.linear = false;
+  EXPECT_THAT(draw(*renderer, view).linear, ::testing::IsEmpty());
 }
 
 TEST_F(PictureTest, SamplesSmoothEdgesOnly) {

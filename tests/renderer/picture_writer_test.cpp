@@ -12,6 +12,7 @@
 #include "core/check.h"
 #include "core/input_error.h"
 #include "core/random.h"
+#include "renderer/finished_picture.h"
 #include "tests/renderer/read_exr.h"
 
 namespace ensemble {
@@ -34,19 +35,6 @@ class PictureWriterTest : public testing::Test {
   ~PictureWriterTest() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path folder_;
 };
-
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no usage error";
-}
-
-std::string nameError(const std::string& output, std::uint32_t frames = 1) {
-  return messageOf([&] { FrameNames(output, frames); });
-}
 
 TEST(EncodeExr, KeepsEveryBit) {
   const std::uint32_t width = 37, height = 19;  // no multiple of a ZIP block's 16 lines
@@ -119,81 +107,68 @@ TEST_F(PictureWriterTest, WritesPngThatReadsBack) {
   EXPECT_EQ(back.rgba, image.rgba);
 }
 
+TEST_F(PictureWriterTest, WritesLinearLightBitForBit) {
+  const std::uint32_t width = 5, height = 4;
+  std::vector<std::uint16_t> rgba(4 * width * height);
+  for (std::uint16_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<std::uint16_t>(0x2c00 + 37 * i);
+  writeLinearPicture(folder_ / "a.exr", width, height, rgba);
+  const ExrPicture picture = readExr(folder_ / "a.exr");
+  EXPECT_TRUE(picture.says_rec709);
+  EXPECT_THAT(picture.half_channels, SizeIs(4));
+  const char* const names[] = {"R", "G", "B", "A"};
+  for (std::size_t i = 0; i < rgba.size(); ++i) {
+    EXPECT_EQ(picture.half_channels.at(names[i % 4])[i / 4], rgba[i]) << i;
+  }
+  const std::vector<float> depth(width * height, 1.0f);
+  writeFloatAov(folder_ / "a.depth.exr", Aov::kDepth, width, height, depth);
+  EXPECT_FALSE(readExr(folder_ / "a.depth.exr").says_rec709) << "metres have no primaries";
+}
+
+TEST_F(PictureWriterTest, TellsFinishedFilesFromOthers) {
+  const std::uint32_t width = 40, height = 37;  // three blocks of lines
+  Image8 image{width, height, std::vector<std::uint8_t>(4 * width * height)};
+  std::vector<float> normals(3 * width * height);
+  const RandomStream random(3, 0);
+  for (std::uint32_t i = 0; i < image.rgba.size(); ++i) {
+    image.rgba[i] = static_cast<std::uint8_t>(random.bits32(i));
+    if (i < normals.size()) normals[i] = static_cast<float>(random.uniform(i));
+  }
+  writePicture(folder_ / "a.png", image);
+  writeFloatAov(folder_ / "a.exr", Aov::kNormal, width, height, normals);
+  const auto is_png = [&](const char* name) { return isFinishedPng(folder_ / name, width, height); };
+  const auto is_exr = [&](const char* name) {
+    return isFinishedExr(folder_ / name, width, height, exrChannelsOf(Aov::kNormal));
+  };
+  EXPECT_TRUE(is_png("a.png"));
+  EXPECT_TRUE(is_exr("a.exr"));
+  EXPECT_FALSE(is_png("a.exr"));
+  EXPECT_FALSE(is_exr("a.png"));
+  EXPECT_FALSE(is_png("none.png"));
+  EXPECT_FALSE(is_exr("none.exr"));
+  EXPECT_FALSE(isFinishedPng(folder_, width, height));
+  EXPECT_FALSE(isFinishedExr(folder_, width, height, exrChannelsOf(Aov::kNormal)));
+  EXPECT_FALSE(isFinishedPng(folder_ / "a.png", width, height + 1));
+  EXPECT_FALSE(isFinishedPng(folder_ / "a.png", width + 1, height));
+  EXPECT_FALSE(isFinishedExr(folder_ / "a.exr", width, height + 1, exrChannelsOf(Aov::kNormal)));
+  EXPECT_FALSE(isFinishedExr(folder_ / "a.exr", width - 1, height, exrChannelsOf(Aov::kNormal)));
+  EXPECT_FALSE(isFinishedExr(folder_ / "a.exr", width, height, exrChannelsOf(Aov::kDepth)));
+  EXPECT_FALSE(isFinishedExr(folder_ / "a.exr", width, height, exrChannelsOfLight()));
+  // Cut off anywhere, they are not whole.
+  for (const char* name : {"a.png", "a.exr"}) {
+    const std::vector<std::byte> bytes = readFile(folder_ / name);
+    for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 1 : 97) {
+      writeFileAtomically(folder_ / "cut", std::span(bytes).first(size));
+      EXPECT_FALSE(is_png("cut")) << size;
+      EXPECT_FALSE(is_exr("cut")) << size;
+    }
+    writeFileAtomically(folder_ / "cut", std::span(bytes).first(bytes.size() - 1));
+    EXPECT_FALSE(is_png("cut") || is_exr("cut"));
+  }
+}
+
 TEST_F(PictureWriterTest, SaysWhenAFileCantBeWritten) {
   const std::vector<std::uint32_t> ids(4);
   EXPECT_THROW(writeIdAov(folder_ / "missing" / "a.exr", Aov::kRegion, 2, 2, ids), SystemError);
-}
-
-TEST(FrameNames, InAFolder) {
-  const FrameNames names("out/", 3);
-  EXPECT_EQ(names.picture(0), "out/frame_0000.png");
-  EXPECT_EQ(names.picture(12345), "out/frame_12345.png");
-  EXPECT_EQ(names.aov(7, Aov::kCharacter), "out/frame_0007.character.exr");
-  EXPECT_EQ(names.ids(7), "out/frame_0007.ids.json");
-  EXPECT_EQ(FrameNames(".", 3).picture(1), "./frame_0001.png");
-}
-
-TEST_F(PictureWriterTest, NamesFilesInAFolderThatExistsAndMakesOthers) {
-  const FrameNames existing(folder_.string(), 2);
-  EXPECT_EQ(existing.picture(1), folder_ / "frame_0001.png");
-  const FrameNames made((folder_ / "a" / "b" / "").string(), 2);
-  made.createFolder();
-  EXPECT_TRUE(std::filesystem::is_directory(folder_ / "a" / "b"));
-  made.createFolder();
-  std::ofstream(folder_ / "file") << "x";
-  EXPECT_THROW(FrameNames((folder_ / "file" / "x.png").string(), 1).createFolder(), SystemError);
-}
-
-TEST(FrameNames, ByAPattern) {
-  EXPECT_EQ(FrameNames("a/name_%04d.png", 9).picture(3), "a/name_0003.png");
-  EXPECT_EQ(FrameNames("name%d-x.png", 9).picture(31), "name31-x.png");
-  EXPECT_EQ(FrameNames("%09d.PNG", 9).picture(31), "000000031.png");
-  EXPECT_EQ(FrameNames("100%%_%02d.png", 9).picture(3), "100%_03.png");
-  EXPECT_EQ(FrameNames("a%sb/name_%02d.png", 9).picture(3), "a%sb/name_03.png");
-  EXPECT_EQ(FrameNames("name_%04d.png", 9).aov(3, Aov::kNormal), "name_0003.normal.exr");
-  EXPECT_EQ(FrameNames("{}_%d.png", 9).picture(3), "{}_3.png");
-}
-
-TEST(FrameNames, OfASinglePicture) {
-  const FrameNames names("a/b.c.png", 1);
-  EXPECT_EQ(names.picture(5), "a/b.c.png");
-  EXPECT_EQ(names.aov(5, Aov::kDepth), "a/b.c.depth.exr");
-  EXPECT_EQ(names.ids(5), "a/b.c.ids.json");
-  EXPECT_EQ(names.folder(), "a");
-}
-
-TEST(FrameNames, SayWhatIsWrong) {
-  EXPECT_EQ(nameError("a/b.png", 2), "-o a/b.png: 2 frames don't fit one file; write a/b_%04d.png");
-  EXPECT_EQ(
-      nameError("b.exr"),
-      "-o b.exr: colour as .exr is not supported yet; write PNG: name.png, name_%04d.png or a folder dir/");
-  EXPECT_EQ(
-      nameError("b.MP4"),
-      "-o b.MP4: colour as .mp4 is not supported yet; write PNG: name.png, name_%04d.png or a folder dir/");
-  EXPECT_EQ(
-      nameError("b.jpg"),
-      "-o b.jpg: pictures can't be written as '.jpg'; write PNG: name.png, name_%04d.png or a folder dir/");
-  EXPECT_EQ(nameError("nowhere"),
-            "-o nowhere: the name has no extension; write nowhere/ for a folder, or nowhere.png");
-  EXPECT_EQ(nameError(""), "-o : the path is empty; write a folder dir/, name_%04d.png or name.png");
-  const std::string mend = "; write %04d for the frame's number, %% for a percent sign";
-  for (const char* bad : {"a%.png", "a%s.png", "a%4d.png", "a%00d.png", "a%010d.png", "a%0d.png", "a%n.png",
-                          "a%04x.png", "a%-4d.png"}) {
-    EXPECT_EQ(nameError(bad), std::string("-o ") + bad +
-                                  ": a '%' that is followed by neither d nor 0Nd (N from 1 to 9)" + mend);
-  }
-  EXPECT_EQ(nameError("%d_%d.png"), "-o %d_%d.png: the frame's number is there twice; write %04d once");
-}
-
-TEST(Aovs, AreParsed) {
-  EXPECT_THAT(parseAovs(""), IsEmpty());
-  EXPECT_THAT(parseAovs("depth,character,depth"), ElementsAre(Aov::kCharacter, Aov::kDepth));
-  EXPECT_THAT(parseAovs("character,region,face,depth,normal"), testing::ElementsAreArray(kAllAovs));
-  const std::string known = " (known: character, region, face, depth, normal)";
-  EXPECT_EQ(messageOf([] { parseAovs("depth,normals"); }),
-            "--aov depth,normals: there is no kind 'normals'; write 'normal'" + known);
-  EXPECT_EQ(messageOf([] { parseAovs("depth,"); }),
-            "--aov depth,: there is no kind ''; write 'face'" + known);
 }
 
 }  // namespace

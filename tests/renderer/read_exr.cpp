@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 
 #include <cstring>
 #include <stdexcept>
@@ -54,6 +55,12 @@ ExrPicture readExr(std::span<const std::byte> bytes) {
   picture.width = static_cast<std::uint32_t>(window.max.x - window.min.x + 1);
   picture.height = static_cast<std::uint32_t>(window.max.y - window.min.y + 1);
   picture.is_zip = file.header().compression() == Imf::ZIP_COMPRESSION;
+  if (Imf::hasChromaticities(file.header())) {
+    const Imf::Chromaticities& found = Imf::chromaticities(file.header());
+    picture.says_rec709 = found.red == Imath::V2f(0.64f, 0.33f) && found.green == Imath::V2f(0.3f, 0.6f) &&
+                          found.blue == Imath::V2f(0.15f, 0.06f) &&
+                          found.white == Imath::V2f(0.3127f, 0.329f);
+  }
   Imf::FrameBuffer buffer;
   const Imf::ChannelList& channels = file.header().channels();
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -63,7 +70,7 @@ ExrPicture readExr(std::span<const std::byte> bytes) {
     } else if (type == Imf::FLOAT) {
       addSlice(buffer, channel.name(), type, picture.float_channels[channel.name()], picture);
     } else {
-      throw std::runtime_error("a channel is neither UINT nor FLOAT");
+      addSlice(buffer, channel.name(), type, picture.half_channels[channel.name()], picture);
     }
   }
   file.setFrameBuffer(buffer);

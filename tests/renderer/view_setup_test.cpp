@@ -66,6 +66,39 @@ TEST(Frustum, TouchesWhatItSees) {
   EXPECT_FALSE(frustum.touches({at(-edge * 4 / 3 - 0.3f, 0, 5), 0.1f}));
 }
 
+// A tile's frustum is the picture's where it is all of it, and cut at its edges elsewhere.
+TEST(Frustum, OfATile) {
+  const View view = someView();
+  const CameraFrame frame = cameraFrame(view.camera);
+  const auto at = [&](float x, float y) {  // The ball about a pixel, 5 metres away.
+    const float metres = 2.0f * std::tan(0.35f) * 5.0f / 480.0f;
+    return Sphere{view.camera.position + 5.0f * frame.forward + (x - 320.0f) * metres * frame.right -
+                      (y - 240.0f) * metres * frame.up,
+                  0.001f};
+  };
+  const Frustum tile = frustumOf(view, {160, 240, 100, 50});
+  EXPECT_TRUE(tile.touches(at(161, 241)));
+  EXPECT_TRUE(tile.touches(at(259, 289)));
+  EXPECT_FALSE(tile.touches(at(159, 260)));
+  EXPECT_FALSE(tile.touches(at(261, 260)));
+  EXPECT_FALSE(tile.touches(at(200, 239)));
+  EXPECT_FALSE(tile.touches(at(200, 291)));
+  const Frustum whole = frustumOf(view), same = frustumOf(view, wholeOf(view));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(whole.planes[i], same.planes[i]);
+}
+
+TEST(MakeGpuView, TellsATileItsPlace) {
+  const View view = someView();
+  const GpuView gpu = makeGpuView(view, {160, 240, 100, 50}, fitShadowMap(view, {}));
+  const GpuView whole = makeGpuView(view, wholeOf(view), fitShadowMap(view, {}));
+  EXPECT_EQ(gpu.ambient_down.w, 160.0f);
+  EXPECT_EQ(gpu.horizon.w, 240.0f);
+  EXPECT_EQ(whole.ambient_down.w, 0.0f);
+  EXPECT_EQ(whole.horizon.w, 0.0f);
+  EXPECT_EQ(gpu.ray_origin, whole.ray_origin);
+  EXPECT_EQ(gpu.clip_from_world, whole.clip_from_world);
+}
+
 TEST(FindVisible, ListsNumbersAscending) {
   const View view = someView();
   const std::vector<Sphere> bounds = {{view.camera.target, 1.0f},
@@ -129,7 +162,7 @@ TEST(ShadowFit, NobodyIsNoTrouble) {
 
 TEST(MakeGpuView, RaysMeetWhatTheMatrixProjects) {
   const View view = someView();
-  const GpuView gpu = makeGpuView(view, fitShadowMap(view, {}));
+  const GpuView gpu = makeGpuView(view, wholeOf(view), fitShadowMap(view, {}));
   const Vec2 pixel(123.5f, 345.5f);
   const Vec3 ray = Vec3(gpu.ray_origin) + pixel.x * Vec3(gpu.ray_x) + pixel.y * Vec3(gpu.ray_y);
   const Vec4 clip = gpu.clip_from_world * Vec4(view.camera.position + 7.0f * ray, 1.0f);
