@@ -1,8 +1,13 @@
 #include "assetpipe/ground_speed.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
+
+#include "assetpipe/root_motion.h"
 
 namespace ensemble {
 namespace {
@@ -10,6 +15,8 @@ namespace {
 constexpr float kFootHeight = 0.03f;  // metres: joints that come this near to the lowest one are of the feet
 constexpr float kContactRise = 0.005f;   // metres above a foot joint's own lowest place: it stands
 constexpr float kStandingSpeed = 0.05f;  // metres a second
+constexpr float kSkatingShare = 0.25f;   // of the travelled speed: feet differ by more
+constexpr float kAheadDegrees = 30.0f;   // a direction that still counts as +Z
 
 float median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -71,6 +78,29 @@ float groundSpeed(const RawSkeleton& skeleton, const Clip& clip) {
   const float interval_seconds = clip.seconds / static_cast<float>(clip.key_count - 1);
   const float speed = glm::length(Vec2(median(along_x), median(along_z))) / interval_seconds;
   return speed < kStandingSpeed ? 0.0f : speed;
+}
+
+void putInPlace(const RawSkeleton& skeleton, Clip& clip, std::vector<std::string>& warnings) {
+  const Vec2 velocity = takeOutRootMotion(skeleton, clip);
+  const float feet_speed = groundSpeed(skeleton, clip);
+  clip.ground_speed = glm::length(velocity);
+  if (clip.ground_speed < kStandingSpeed) {
+    clip.ground_speed = feet_speed;
+    return;
+  }
+  const float heading_degrees = degrees(std::atan2(velocity.x, velocity.y));
+  if (std::abs(heading_degrees) > kAheadDegrees) {
+    warnings.push_back(fmt::format(
+        "clip '{}' travels at {:.0f} degrees to the direction that the figure faces; it keeps its heading, "
+        "and slides sideways where people follow a path",
+        clip.name, heading_degrees));
+  }
+  if (std::abs(feet_speed - clip.ground_speed) > kSkatingShare * clip.ground_speed) {
+    warnings.push_back(fmt::format(
+        "clip '{}' travels at {:.2f} m/s, but its feet stand on a ground that moves at {:.2f} m/s; feet "
+        "will slide",
+        clip.name, clip.ground_speed, feet_speed));
+  }
 }
 
 }  // namespace ensemble

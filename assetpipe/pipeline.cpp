@@ -45,19 +45,26 @@ GlbWriteOptions writeOptions(const PipelineOptions& options) {
   return write_options;
 }
 
+/// The clips from `first` on, which came from `file`.
+void putClipsInPlace(TemplateBody& body, std::size_t first, const std::string& file) {
+  std::vector<std::string> warnings;
+  for (std::size_t c = first; c < body.clips.size(); ++c) putInPlace(body.skeleton, body.clips[c], warnings);
+  tellAbout(file, {}, warnings);
+}
+
 TaggingTemplate readTemplate(const fs::path& file, const PipelineOptions& options) {
   const RawAsset asset = readGltf(file);
   std::vector<std::string> warnings = asset.warnings;
   TaggingTemplate result;
   result.body = segmentTemplate(asset, options.segment, file.string(), warnings);
   tellAbout(file.string(), asset.dropped, warnings);
+  putClipsInPlace(result.body, 0, file.string());
   for (const fs::path& clip_file : options.clips) {
     const RawAsset clips = readGltf(clip_file);
     tellAbout(clip_file.string(), {}, clips.warnings);
+    const std::size_t first = result.body.clips.size();
     transferClips(clips, clip_file, result.body);
-  }
-  for (Clip& clip : result.body.clips) {
-    clip.ground_speed = groundSpeed(result.body.skeleton, clip);
+    putClipsInPlace(result.body, first, clip_file.string());
   }
   result.geometry_hash = geometryHash(result.body);
   return result;

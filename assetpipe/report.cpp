@@ -1,39 +1,86 @@
+// Lister, Laycock and Day, section 5 (table 2) and section 6 (figure 6).
 #include "assetpipe/report.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <set>
 
 namespace ensemble {
 namespace {
 
-double ratio(std::uint64_t value, std::uint64_t base) {
-  return base == 0 ? 0.0 : static_cast<double>(value) / static_cast<double>(base);
+/// The template's whole part, as naive and tagged storage hold it once for all outfits.
+bool isGeneric(const IndexList& list, const TemplateBody& body) {
+  if (!list.is_template) return false;
+  const auto holds_first = [&](const BodyPart& part) {
+    return list.source_faces[0] >= part.first_face &&
+           list.source_faces[0] - part.first_face < part.face_count;
+  };
+  const auto part = std::find_if(body.parts.begin(), body.parts.end(), holds_first);
+  return list.source_faces.size() == part->face_count;
 }
 
-std::uint64_t at(const std::array<std::uint64_t, 3>& values, Technique technique) {
-  return values[static_cast<std::size_t>(technique)];
-}
+/// Sorts the lists of one technique by what they are for.
+class ListCosts {
+ public:
+  ListCosts(const SubMeshLists& lists, const TemplateBody& body) : lists_(lists) {
+    part_of_list_.assign(lists.index_lists.size(), &StoredParts::body);
+    part_of_mesh_.assign(lists.meshes.size(), &StoredParts::body);
+    for (const SubMesh& sub_mesh : lists.sub_meshes) {
+      const IndexList& list = lists.index_lists[sub_mesh.list];
+      const bool is_garment = sub_mesh.kind == SubMeshKind::kGarment;
+      const bool is_shared = lists.technique != Technique::kPrefitted && isGeneric(list, body);
+      part_of_list_[sub_mesh.list.value] = is_garment  ? &StoredParts::garments
+                                           : is_shared ? &StoredParts::body
+                                                       : &StoredParts::fitted;
+      const bool owns_vertices = lists.technique == Technique::kPrefitted || !list.is_template;
+      if (is_garment || owns_vertices) part_of_mesh_[list.mesh.value] = part_of_list_[sub_mesh.list.value];
+    }
+  }
 
-/// "+6.0 %"
-std::string change(std::uint64_t value, std::uint64_t base) {
-  return fmt::format("{:+.1f} %", (ratio(value, base) - 1) * 100);
-}
+  StoredParts total() const {
+    StoredParts parts;
+    for (std::size_t m = 0; m < part_of_mesh_.size(); ++m) addMesh(MeshId(m), parts);
+    for (std::size_t l = 0; l < part_of_list_.size(); ++l) addList(IndexListId(l), parts);
+    return parts;
+  }
 
-/// "full", "hidden", or the number of visible faces.
-std::string tagText(const RegionTag& tag) {
-  return tag.visibility == Visibility::kPartial ? std::to_string(tag.visible_faces)
-         : tag.visibility == Visibility::kFull  ? "full"
-                                                : "-";
-}
+  /// What one combination uses, without the template.
+  StoredParts of(std::size_t combination) const {
+    std::set<std::uint32_t> meshes, index_lists;
+    for (const SubMeshId id : lists_.shown[combination]) {
+      const IndexListId list = lists_.sub_meshes[id].list;
+      index_lists.insert(list.value);
+      meshes.insert(lists_.index_lists[list].mesh.value);
+    }
+    StoredParts parts;
+    for (const std::uint32_t mesh : meshes) addMesh(MeshId(mesh), parts);
+    for (const std::uint32_t list : index_lists) addList(IndexListId(list), parts);
+    parts.body = 0;
+    return parts;
+  }
 
-/// A field for CSV, quoted where it must be.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+ private:
+  void addMesh(MeshId id, StoredParts& parts) const {
+    parts.*part_of_mesh_[id.value] += lists_.meshes[id].vertices.size() * sizeof(GpuVertex);
+  }
+  void addList(IndexListId id, StoredParts& parts) const {
+    const IndexList& list = lists_.index_lists[id];
+    parts.*part_of_list_[id.value] += list.indices.size() * (lists_.meshes[list.mesh].wide_indices ? 4u : 2u);
+  }
+
+  const SubMeshLists& lists_;
+  std::vector<std::uint64_t StoredParts::*> part_of_list_, part_of_mesh_;
+};
+
+/// The numbers of outfits that the curve shows.
+std::set<std::uint64_t> curveCounts(std::uint64_t measured, std::uint64_t last) {
+  constexpr std::uint64_t kPlaces = 100;
+  std::set<std::uint64_t> counts;
+  const std::uint64_t places = std::min(last, kPlaces);
+  for (std::uint64_t i = 0; i < places; ++i) {
+    counts.insert(places == 1 ? 1 : 1 + ((last - 1) * i + (places - 1) / 2) / (places - 1));
+  }
+  if (measured >= 1 && measured <= last) counts.insert(measured);
+  return counts;
 }
 
 }  // namespace
@@ -59,7 +106,29 @@ StoredFaces extrapolateStoredFaces(std::uint64_t template_faces, std::span<const
   return result;
 }
 
-Report makeReport(const Wardrobe& wardrobe) {
+TechniqueParts outfitFaceParts(const OutfitFaces& faces) {
+  return {{{0, faces.garments, 0},
+           {0, faces.garments, faces.visible_body},
+           {0, faces.garments, faces.dedicated}}};
+}
+
+Extrapolation extrapolate(std::uint64_t template_faces, std::span<const OutfitFaces> outfits,
+                          std::uint64_t outfit_count) {
+  Extrapolation result;
+  result.outfits = outfit_count;
+  const auto share = [](const StoredFaces& faces) -> std::optional<double> {
+    if (faces[Technique::kPrefitted] == 0) return std::nullopt;
+    return static_cast<double>(faces[Technique::kTagged]) / static_cast<double>(faces[Technique::kPrefitted]);
+  };
+  for (const std::uint64_t count : curveCounts(outfits.size(), outfit_count)) {
+    const StoredFaces faces = extrapolateStoredFaces(template_faces, outfits, count);
+    result.curve.push_back({count, faces, share(faces)});
+  }
+  result.limit = share(countStoredFaces(0, outfits));
+  return result;
+}
+
+Report makeReport(const Wardrobe& wardrobe, std::uint64_t extrapolate_to) {
   Report report;
   report.template_faces = wardrobe.body.faces.size();
   for (const Region& region : wardrobe.body.regions) {
@@ -76,90 +145,20 @@ Report makeReport(const Wardrobe& wardrobe) {
     combinations.push_back({ItemId(i)});
   }
   report.faces = countStoredFaces(report.template_faces, report.outfits);
+  report.outfit_bytes.resize(combinations.size());
   for (const Technique technique : kAllTechniques) {
-    report.bytes[static_cast<std::size_t>(technique)] =
-        buildSubMeshLists(wardrobe, combinations, technique).meshBytes();
+    const auto t = static_cast<std::size_t>(technique);
+    const SubMeshLists lists = buildSubMeshLists(wardrobe, combinations, technique);
+    const ListCosts costs(lists, wardrobe.body);
+    report.bytes[t] = lists.meshBytes();
+    report.byte_parts[t] = costs.total();
+    for (std::size_t c = 0; c < combinations.size(); ++c) report.outfit_bytes[c][t] = costs.of(c);
   }
   report.lower_bound_bytes = lowerBoundBytes(wardrobe, combinations);
+  if (extrapolate_to > 0) {
+    report.extrapolation = extrapolate(report.template_faces, report.outfits, extrapolate_to);
+  }
   return report;
-}
-
-nlohmann::ordered_json toJson(const Report& report) {
-  using Json = nlohmann::ordered_json;
-  Json outfits = Json::array();
-  for (std::size_t i = 0; i < report.outfits.size(); ++i) {
-    Json regions = Json::array();
-    for (std::size_t r = 0; r < report.region_names.size(); ++r) {
-      regions.push_back({{"name", report.region_names[r]},
-                         {"visibility", toString(report.tags[i][r].visibility)},
-                         {"template_faces", report.region_faces[r]},
-                         {"visible_faces", report.tags[i][r].visible_faces}});
-    }
-    const OutfitFaces& faces = report.outfits[i];
-    outfits.push_back({{"name", report.outfit_names[i]},
-                       {"garment_faces", faces.garments},
-                       {"dedicated_faces", faces.dedicated},
-                       {"prefitted_faces", faces.garments + faces.visible_body},
-                       {"regions", std::move(regions)}});
-  }
-  Json techniques = Json::object();
-  for (const Technique technique : kAllTechniques) {
-    const std::uint64_t faces = report.faces[technique], bytes = at(report.bytes, technique);
-    techniques[toString(technique)] = {{"faces", faces},
-                                       {"bytes", bytes},
-                                       {"faces_vs_naive", ratio(faces, report.faces[Technique::kNaive])},
-                                       {"bytes_vs_naive", ratio(bytes, at(report.bytes, Technique::kNaive))}};
-  }
-  return {{"schema", "ensemble.report/1"},
-          {"template_faces", report.template_faces},
-          {"outfits", std::move(outfits)},
-          {"techniques", std::move(techniques)},
-          {"lower_bound_bytes", report.lower_bound_bytes}};
-}
-
-std::string toTable(const Report& report) {
-  std::size_t name_width = 8;
-  for (const std::string& name : report.outfit_names) name_width = std::max(name_width, name.size());
-  std::string text = fmt::format("{:<{}} {:>8}", "outfit", name_width, "garments");
-  for (const std::string& region : report.region_names) text += fmt::format(" {:>8.8}", region);
-  text += fmt::format(" {:>10} {:>10}\n", "dedicated", "prefitted");
-  for (std::size_t i = 0; i < report.outfits.size(); ++i) {
-    const OutfitFaces& faces = report.outfits[i];
-    text += fmt::format("{:<{}} {:>8}", report.outfit_names[i], name_width, faces.garments);
-    for (const RegionTag& tag : report.tags[i]) text += fmt::format(" {:>8}", tagText(tag));
-    text += fmt::format(" {:>10} {:>10}\n", faces.dedicated, faces.garments + faces.visible_body);
-  }
-  text += fmt::format("{:<{}} {:>8}", "template", name_width, "");
-  for (const std::uint64_t faces : report.region_faces) text += fmt::format(" {:>8}", faces);
-  text += fmt::format("\n\n{:<12} {:>10} {:>10} {:>14} {:>10}\n", "technique", "faces", "vs naive",
-                      "mesh bytes", "vs naive");
-  for (const Technique technique : kAllTechniques) {
-    text += fmt::format("{:<12} {:>10} {:>10} {:>14} {:>10}\n", toString(technique), report.faces[technique],
-                        change(report.faces[technique], report.faces[Technique::kNaive]),
-                        at(report.bytes, technique),
-                        change(at(report.bytes, technique), at(report.bytes, Technique::kNaive)));
-  }
-  text += fmt::format("{:<12} {:>10} {:>10} {:>14}\n", "lower bound", "", "", report.lower_bound_bytes);
-  return text;
-}
-
-std::string toCsv(const Report& report) {
-  std::string text = "outfit,garment_faces,visible_body_faces,dedicated_faces,prefitted_faces";
-  for (const std::string& region : report.region_names) text += "," + csvField(region);
-  text += "\n";
-  for (std::size_t i = 0; i < report.outfits.size(); ++i) {
-    const OutfitFaces& faces = report.outfits[i];
-    text += fmt::format("{},{},{},{},{}", csvField(report.outfit_names[i]), faces.garments,
-                        faces.visible_body, faces.dedicated, faces.garments + faces.visible_body);
-    for (const RegionTag& tag : report.tags[i]) text += "," + std::to_string(tag.visible_faces);
-    text += "\n";
-  }
-  text += "technique,faces,bytes\n";
-  for (const Technique technique : kAllTechniques) {
-    text +=
-        fmt::format("{},{},{}\n", toString(technique), report.faces[technique], at(report.bytes, technique));
-  }
-  return text;
 }
 
 }  // namespace ensemble

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,38 @@ StoredFaces countStoredFaces(std::uint64_t template_faces, std::span<const Outfi
 StoredFaces extrapolateStoredFaces(std::uint64_t template_faces, std::span<const OutfitFaces> outfits,
                                    std::uint64_t outfit_count);
 
+/// Faces or bytes by what they are for.
+struct StoredParts {
+  std::uint64_t body = 0;      ///< the template, which outfits share
+  std::uint64_t garments = 0;  ///< of clothes
+  std::uint64_t fitted = 0;    ///< body made for outfits: pre-fitted bodies, or dedicated sub-meshes
+  std::uint64_t sum() const { return body + garments + fitted; }
+};
+using TechniqueParts = std::array<StoredParts, 3>;  ///< by Technique
+
+/// Faces that an outfit adds to the store, without the template.
+TechniqueParts outfitFaceParts(const OutfitFaces& faces);
+
+/// One number of outfits of the paper's figure 6.
+struct ExtrapolatedFaces {
+  std::uint64_t outfits = 0;
+  StoredFaces faces;
+  std::optional<double> tagged_vs_prefitted = {};  ///< none where pre-fitted stores nothing
+};
+
+/// Figure 6: how storage grows with the number of outfits, from the wardrobe's mean outfit. Below
+/// the wardrobe's own number a figure is the mean over all its subsets of that many, at it the
+/// figure is counted, above it is extrapolated.
+struct Extrapolation {
+  std::uint64_t outfits = 0;  ///< up to here
+  /// Ascending, from 1 to `outfits`: every number up to 100, else 100 at equal distances, and the
+  /// wardrobe's own number where it lies between.
+  std::vector<ExtrapolatedFaces> curve;
+  std::optional<double> limit;  ///< tagged over pre-fitted towards infinitely many outfits
+};
+Extrapolation extrapolate(std::uint64_t template_faces, std::span<const OutfitFaces> outfits,
+                          std::uint64_t outfit_count);
+
 struct Report {
   std::uint64_t template_faces = 0;
   std::vector<std::string> outfit_names;
@@ -43,14 +76,23 @@ struct Report {
   std::vector<std::uint64_t> region_faces;   ///< of the template
   StoredFaces faces;
   std::array<std::uint64_t, 3> bytes{};  ///< what the GPU holds for meshes
+  TechniqueParts byte_parts;             ///< the same by what they are for
+  /// Per outfit: bytes of the garments and the fitted body that it uses. What several outfits use
+  /// counts at each of them here, and once in `bytes`.
+  std::vector<TechniqueParts> outfit_bytes;
   std::uint64_t lower_bound_bytes = 0;
+  std::optional<Extrapolation> extrapolation;
 };
 
-/// Counts a wardrobe; bytes are those of the lists that the renderer draws.
-Report makeReport(const Wardrobe& wardrobe);
+/// Counts a wardrobe; bytes are those of the lists that the renderer draws. `extrapolate_to`: number
+/// of outfits of the extrapolation, 0 for none.
+Report makeReport(const Wardrobe& wardrobe, std::uint64_t extrapolate_to = 0);
 
 nlohmann::ordered_json toJson(const Report& report);  ///< "ensemble.report/1"
 std::string toTable(const Report& report);            ///< for people, with a newline at the end
-std::string toCsv(const Report& report);              ///< one line per outfit, and the three totals
+/// One table: a row for each technique of every outfit, of the total and of every number of outfits of
+/// the extrapolation (`kind` as in the JSON, `name` the number), and the lower bound. A field without
+/// a meaning is empty.
+std::string toCsv(const Report& report);
 
 }  // namespace ensemble

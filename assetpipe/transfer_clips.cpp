@@ -82,12 +82,17 @@ void transferPose(const RawSkeleton& source, std::span<const Transform> source_l
   }
 }
 
+/// A name that no one chose: Mixamo's, and those of Blender's import ("Armature|mixamo.com|Layer0").
+bool isMadeUp(const std::string& name) {
+  return name.find("mixamo.com") != std::string::npos || name.find('|') != std::string::npos;
+}
+
 std::string freeName(const TemplateBody& body, const std::string& wanted, const std::string& stem) {
   const auto taken = [&](const std::string& name) {
     return name.empty() || std::any_of(body.clips.begin(), body.clips.end(),
                                        [&](const Clip& clip) { return clip.name == name; });
   };
-  std::string name = taken(wanted) ? stem : wanted;
+  std::string name = taken(wanted) || isMadeUp(wanted) ? stem : wanted;
   for (int copy = 2; taken(name); ++copy) name = stem + "_" + std::to_string(copy);
   return name;
 }

@@ -42,7 +42,7 @@ void addTaggingOptions(CLI::App& command, TagArguments& arguments) {
           "How far a body corner may be from the template's, in millimetres, 0.001 to 10 (default 0.2)")
       ->check(CLI::Range(0.001, 10.0))
       ->type_name("MM");
-  command.add_flag("--draco", arguments.draco, "Compress the files with Draco");
+  command.add_flag("--draco", arguments.draco, "Compress the files with Draco (off by default)");
   command.add_option("-j,--jobs", arguments.jobs, "Outfits tagged at a time (default: one for each core)")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
@@ -109,7 +109,11 @@ void addTagCommand(CLI::App& app) {
           "--regions", arguments->regions,
           "How the template is cut: material, joints (by dominant skin weight) or a file (default material)")
       ->type_name("material|joints|FILE");
-  command.add_option("--clips", arguments->clips, "Files with more clips of the same skeleton")
+  command
+      .add_option(
+          "--clips", arguments->clips,
+          "Files with more clips of the same skeleton; a clip that a tool named takes its file's name "
+          "(default: none)")
       ->type_name("FILE...");
   addTaggingOptions(command, *arguments);
   finishCommand(

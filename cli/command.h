@@ -24,6 +24,9 @@ void finishCommand(CLI::App& command, CommonOptions& options, const std::string&
 /// Writes the figures where --json says; nothing where it was not given.
 void writeFigures(const CommonOptions& options, const nlohmann::ordered_json& figures);
 
+/// The figures as the JSON file has them: names from files that are no UTF-8 made readable.
+nlohmann::ordered_json figuresAsWritten(const nlohmann::ordered_json& figures);
+
 /// Prints a result for people on standard output; nothing with --quiet or where JSON goes there.
 void printResult(const CommonOptions& options, const std::string& text);
 

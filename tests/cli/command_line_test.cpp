@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/atomic_file.h"
 #include "core/gltf_file.h"
@@ -28,6 +29,11 @@ class CommandLine : public ::testing::Test {
     return testing::runProgram(arguments, folder_.path());
   }
 
+  std::string text(const std::string& file) const {
+    const std::vector<std::byte> bytes = readFile(folder_ / file);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+
   testing::TemporaryFolder folder_;
 };
 
@@ -38,7 +44,13 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_THAT(help.out, HasSubstr(std::string("  ") + command)) << "not in --help";
     const ProgramResult own = run(std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;
+    EXPECT_THAT(own.out, ::testing::StartsWith("ensemble " + std::string(command) + " - "));
+    EXPECT_THAT(own.out, HasSubstr("Usage: ensemble " + std::string(command) + " [OPTIONS]"));
+    EXPECT_THAT(own.out, HasSubstr("\nFiles:\n"));
+    EXPECT_THAT(own.out, HasSubstr("\nExit codes:\n  0  done\n"));
     EXPECT_THAT(own.out, HasSubstr("Example:\n  ensemble " + std::string(command)));
+    std::stringstream lines(own.out.substr(0, own.out.find("Example:")));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << command << ": " << line;
     for (const char* option : {"--json", "--quiet", "--verbose"})
       EXPECT_THAT(own.out, HasSubstr(option)) << command;
   }
@@ -107,6 +119,11 @@ TEST_F(CommandLine, TagReportInspectAddRemove) {
   EXPECT_EQ(figures["schema"], "ensemble.report/1");
   EXPECT_EQ(figures["techniques"]["tagged"]["faces"], 192 + 80 + 32);
   EXPECT_EQ(figures["outfits"][0]["dedicated_faces"], 32);
+
+  EXPECT_EQ(run("report w -q --extrapolate 5 --csv w.csv --html w.html").exit_code, 0);
+  EXPECT_THAT(text("w.csv"), HasSubstr("\ntotal,,tagged,192,80,32,304,"));
+  EXPECT_THAT(text("w.csv"), HasSubstr("\nmeasured,1,tagged,,,,304,"));
+  EXPECT_THAT(text("w.html"), HasSubstr("<h1>What tagging saves: w</h1>"));
 
   const nlohmann::json visible = nlohmann::json::parse(run("inspect w --visible tunic --json -").out);
   ASSERT_EQ(visible["regions"].size(), 3u);

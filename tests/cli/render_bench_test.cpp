@@ -243,7 +243,8 @@ TEST_F(RenderCommand, ValidationIsClean) {
 
 TEST_F(RenderCommand, BenchComparesTechniques) {
   if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
-  const ProgramResult result = run("bench scene.yaml --counts 3,9 --rounds 2 --json bench.json");
+  const ProgramResult result =
+      run("bench scene.yaml --counts 3,9 --rounds 2 --json bench.json --csv bench.csv --html bench.html");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, StartsWith("technique "));
   EXPECT_THAT(result.out, HasSubstr("tagged / naive, 9 people: "));
@@ -252,9 +253,17 @@ TEST_F(RenderCommand, BenchComparesTechniques) {
   EXPECT_EQ(bench["width"], 96);
   EXPECT_EQ(bench["height"], 64);
   ASSERT_EQ(bench["rows"].size(), 6u);
-  ASSERT_EQ(bench["ratios"].size(), 4u);
+  ASSERT_EQ(bench["ratios"].size(), 6u);
+  EXPECT_EQ(bench["ratios"][2]["versus"], "prefitted");
+  EXPECT_EQ(bench["rounds"], 2);
+  const std::string csv = bytes("bench.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+  EXPECT_THAT(csv, HasSubstr("\ntagged,9,9,2," + bench["rows"][5]["frame_ms"]["min"].dump() + ","));
+  EXPECT_THAT(bytes("bench.html"), HasSubstr("<h1>Three techniques compared: scene.yaml</h1>"));
   for (const nlohmann::json& row : bench["rows"]) {
     EXPECT_EQ(row["rounds"], 2);
+    EXPECT_EQ(row["frame_ms_of_rounds"].size(), 2u);
+    EXPECT_EQ(row["vertex_invocations_differ_by"], 0);
     EXPECT_LE(row["frame_ms"]["min"], row["frame_ms"]["median"]);
     EXPECT_LE(row["frame_ms"]["median"], row["frame_ms"]["max"]);
     EXPECT_GT(row["gpu_mesh_bytes"], 0);

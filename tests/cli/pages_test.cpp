@@ -1,0 +1,270 @@
+// What `report` and `bench` write beside JSON: the same figures as CSV and as web pages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "assetpipe/report.h"
+#include "assetpipe/tag_regions.h"
+#include "cli/bench_figures.h"
+#include "cli/bench_page.h"
+#include "cli/html_page.h"
+#include "cli/report_page.h"
+#include "core/wardrobe.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ensemble::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Rows of a CSV without quotes, as {column: text}.
+std::vector<std::map<std::string, std::string>> readCsv(const std::string& text) {
+  const auto fieldsOf = [](const std::string& line) {
+    std::vector<std::string> fields;
+    std::stringstream stream(line + ",");
+    for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+    return fields;
+  };
+  std::stringstream stream(text);
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> header = fieldsOf(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> fields = fieldsOf(line);
+    EXPECT_EQ(fields.size(), header.size()) << line;
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(fields.size(), header.size()); ++i) row[header[i]] = fields[i];
+  }
+  return rows;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// Another program's parser reads the page, and it asks nothing of elsewhere.
+void expectWholePage(const std::string& page) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "page.html") << page;
+  const std::string command = "python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' " +
+                              (folder / "page.html").string();
+  EXPECT_EQ(std::system(command.c_str()), 0) << "not well-formed";
+  for (const char* foreign : {"<script", "<link", "<img", "url(", "@import", "src=", "href="})
+    EXPECT_THAT(page, Not(HasSubstr(foreign)));
+}
+
+Report smallReport() { return makeReport(loadWardrobe("tests/formats/wardrobe-1"), 250); }
+
+TEST(Pages, TextIsSafeInXml) {
+  EXPECT_EQ(escapeXml("a<b> & \"c\"\n\x01\xc3\xa9"), "a&lt;b&gt; &amp; &quot;c&quot;??\xc3\xa9");
+  EXPECT_EQ(groupDigits(0), "0");
+  EXPECT_EQ(groupDigits(999), "999");
+  EXPECT_EQ(groupDigits(1000), "1,000");
+  EXPECT_EQ(groupDigits(12345678), "12,345,678");
+}
+
+TEST(Pages, PartsOfTheReportAddUp) {
+  const Report report = smallReport();
+  const Json figures = toJson(report);
+  for (const char* technique : {"naive", "prefitted", "tagged"}) {
+    const Json& row = figures["techniques"][technique];
+    for (const auto& [parts, total] : {std::pair("faces_of", "faces"), std::pair("bytes_of", "bytes")}) {
+      std::uint64_t sum = 0;
+      for (const Json& part : row[parts]) sum += part.get<std::uint64_t>();
+      EXPECT_EQ(sum, row[total]) << technique << " " << parts;
+    }
+  }
+  const Json& tagged = figures["techniques"]["tagged"]["bytes_of"];
+  const Json& naive = figures["techniques"]["naive"]["bytes_of"];
+  EXPECT_EQ(tagged["template"], naive["template"]);
+  EXPECT_EQ(tagged["garments"], naive["garments"]);
+  EXPECT_EQ(naive["fitted_body"], 0);
+  // The wardrobe has one outfit, so its dedicated sub-meshes are all there are: 6 bytes a face.
+  EXPECT_EQ(tagged["fitted_body"], figures["outfits"][0]["dedicated_faces"].get<int>() * 6);
+  EXPECT_EQ(figures["outfits"][0]["bytes"]["tagged"]["fitted_body"], tagged["fitted_body"]);
+  EXPECT_EQ(figures["techniques"]["prefitted"]["bytes_of"]["template"], 0);
+}
+
+TEST(Pages, CsvOfTheReportSaysWhatTheJsonSays) {
+  const Report report = smallReport();
+  const Json figures = toJson(report);
+  const auto rows = readCsv(toCsv(report));
+  const Json& curve = figures["extrapolated"]["curve"];
+  ASSERT_EQ(rows.size(), 3 * figures["outfits"].size() + 3 + 1 + 3 * curve.size());
+  std::size_t r = 0;
+  for (const Json& outfit : figures["outfits"]) {
+    for (const char* technique : {"naive", "prefitted", "tagged"}) {
+      auto row = rows[r++];
+      EXPECT_EQ(row["kind"], "outfit");
+      EXPECT_EQ(row["name"], outfit["name"]);
+      EXPECT_EQ(row["technique"], technique);
+      EXPECT_EQ(row["garment_faces"], outfit["garment_faces"].dump());
+      EXPECT_EQ(row["garment_bytes"], outfit["bytes"][technique]["garments"].dump());
+      EXPECT_EQ(row["fitted_body_bytes"], outfit["bytes"][technique]["fitted_body"].dump());
+      for (const Json& region : outfit["regions"])
+        EXPECT_EQ(row["visible." + region["name"].get<std::string>()], region["visible_faces"].dump());
+    }
+    auto prefitted = rows[r - 2], tagged = rows[r - 1];
+    EXPECT_EQ(prefitted["faces"], outfit["prefitted_faces"].dump());
+    EXPECT_EQ(tagged["fitted_body_faces"], outfit["dedicated_faces"].dump());
+  }
+  for (const char* technique : {"naive", "prefitted", "tagged"}) {
+    auto row = rows[r++];
+    EXPECT_EQ(row["kind"], "total");
+    EXPECT_EQ(row["faces"], figures["techniques"][technique]["faces"].dump());
+    EXPECT_EQ(row["bytes"], figures["techniques"][technique]["bytes"].dump());
+    EXPECT_EQ(row["template_bytes"], figures["techniques"][technique]["bytes_of"]["template"].dump());
+  }
+  auto bound = rows[r++];
+  EXPECT_EQ(bound["kind"], "lower bound");
+  EXPECT_EQ(bound["bytes"], figures["lower_bound_bytes"].dump());
+  for (const Json& point : curve) {
+    for (const char* technique : {"naive", "prefitted", "tagged"}) {
+      auto row = rows[r++];
+      EXPECT_EQ(row["kind"], point["kind"]);
+      EXPECT_EQ(row["name"], point["outfits"].dump());
+      EXPECT_EQ(row["faces"], point[technique].dump());
+      EXPECT_EQ(row["bytes"], "") << "bytes are not extrapolated";
+    }
+  }
+}
+
+TEST(Pages, TheReportsPageShowsItsFigures) {
+  Json figures = toJson(smallReport());
+  figures["wardrobe"] = "<a> & b";
+  const std::string page = reportPage(figures);
+  expectWholePage(page);
+  EXPECT_THAT(page, HasSubstr("<h1>What tagging saves: &lt;a&gt; &amp; b</h1>"));
+  EXPECT_EQ(count(page, "<svg "), 6u);
+  for (const char* key : {"garment_faces", "dedicated_faces", "prefitted_faces"})
+    EXPECT_THAT(page, HasSubstr("<td>" + groupDigits(figures["outfits"][0][key]) + "</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>" + groupDigits(figures["lower_bound_bytes"]) + "</td>"));
+  // Three curves of faces and one of shares, each marked where it was counted.
+  EXPECT_EQ(count(page, "class=\"mark "), 4u);
+  figures.erase("extrapolated");
+  EXPECT_EQ(count(reportPage(figures), "<svg "), 4u);
+}
+
+TEST(Pages, AWardrobeWithoutOutfitsHasAPage) {
+  Report report;
+  report.template_faces = 10;
+  report.faces = countStoredFaces(10, {});
+  report.extrapolation = extrapolate(10, {}, 5);
+  Json figures = toJson(report);
+  figures["wardrobe"] = "bare";
+  EXPECT_TRUE(figures["extrapolated"]["tagged_vs_prefitted"].is_null());
+  expectWholePage(reportPage(figures));
+}
+
+/// A row with given times; counts that tell rows apart.
+ContestRow row(Technique technique, std::size_t characters, std::vector<double> frame_ms) {
+  ContestRow result{.technique = technique, .characters = characters};
+  result.cpu_ms.assign(frame_ms.size(), 0.25);
+  result.frame_ms = std::move(frame_ms);
+  result.stats.characters_drawn = static_cast<std::uint32_t>(characters);
+  result.stats.main = {.draw_calls = 3, .triangles = 10 * characters, .vertex_invocations = 7 * characters};
+  result.stats.shadow.vertex_invocations = 0;
+  result.stats.gpu_mesh_bytes = 1000;
+  return result;
+}
+
+Json benchFigures() {
+  Json figures = {{"schema", "ensemble.bench/1"},
+                  {"device", "<none>"},
+                  {"width", 64},
+                  {"height", 32},
+                  {"samples", 1},
+                  {"scene", "s.yaml"},
+                  {"rounds", 3},
+                  {"rows", Json::array()},
+                  {"ratios", Json::array()}};
+  for (const std::size_t people : {10u, 20u}) {
+    const std::vector<ContestRow> rows = {row(Technique::kNaive, people, {10, 20, 40}),
+                                          row(Technique::kPrefitted, people, {8, 10, 20}),
+                                          row(Technique::kTagged, people, {4, 16, 24})};
+    addContest(rows, figures);
+  }
+  return figures;
+}
+
+TEST(Pages, RatiosAreTakenRoundByRound) {
+  const Json figures = benchFigures();
+  ASSERT_EQ(figures["rows"].size(), 6u);
+  ASSERT_EQ(figures["ratios"].size(), 6u);
+  const Json &prefitted = figures["ratios"][0], &tagged = figures["ratios"][1], &both = figures["ratios"][2];
+  EXPECT_EQ(prefitted["technique"], "prefitted");
+  EXPECT_EQ(prefitted["versus"], "naive");
+  EXPECT_DOUBLE_EQ(prefitted["frame_ms"], 10.0 / 20.0);
+  EXPECT_DOUBLE_EQ(prefitted["frame_ms_of_rounds"]["median"], 0.5);  // of 0.8, 0.5, 0.5
+  EXPECT_DOUBLE_EQ(prefitted["frame_ms_of_rounds"]["q3"], 0.65);
+  EXPECT_DOUBLE_EQ(tagged["frame_ms"], 16.0 / 20.0);
+  EXPECT_DOUBLE_EQ(tagged["frame_ms_of_rounds"]["median"], 0.6);  // of 0.4, 0.8, 0.6
+  EXPECT_EQ(both["technique"], "tagged");
+  EXPECT_EQ(both["versus"], "prefitted");
+  EXPECT_DOUBLE_EQ(both["frame_ms"], 1.6);
+  EXPECT_DOUBLE_EQ(both["frame_ms_of_rounds"]["median"], 1.2);  // of 0.5, 1.6, 1.2
+  EXPECT_DOUBLE_EQ(both["vertex_invocations"], 1.0);
+}
+
+TEST(Pages, WithoutNaiveTheFirstIsTheMeasure) {
+  Json figures = {{"rows", Json::array()}, {"ratios", Json::array()}};
+  const std::vector<ContestRow> rows = {row(Technique::kPrefitted, 5, {2.0}),
+                                        row(Technique::kTagged, 5, {3.0})};
+  addContest(rows, figures);
+  ASSERT_EQ(figures["ratios"].size(), 1u);
+  EXPECT_EQ(figures["ratios"][0]["versus"], "prefitted");
+  EXPECT_DOUBLE_EQ(figures["ratios"][0]["frame_ms"], 1.5);
+}
+
+TEST(Pages, CsvOfTheBenchSaysWhatTheJsonSays) {
+  const Json figures = benchFigures();
+  const auto rows = readCsv(benchCsv(figures));
+  ASSERT_EQ(rows.size(), 6u);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    auto text = rows[r];
+    const Json& row = figures["rows"][r];
+    EXPECT_EQ(text["technique"], row["technique"]);
+    for (const char* key :
+         {"characters", "rounds", "cpu_ms", "vertex_invocations", "triangles", "draw_calls"})
+      EXPECT_EQ(text[key], row[key].dump());
+    for (const char* key : {"min", "q1", "median", "q3", "max"})
+      EXPECT_EQ(text[std::string("frame_ms_") + key], row["frame_ms"][key].dump());
+  }
+  auto naive = rows[3], prefitted = rows[4], tagged = rows[5];
+  EXPECT_EQ(naive["frame_vs_naive"], "");
+  EXPECT_EQ(prefitted["frame_vs_naive"], figures["ratios"][3]["frame_ms"].dump());
+  EXPECT_EQ(prefitted["frame_vs_prefitted"], "");
+  EXPECT_EQ(tagged["frame_vs_naive_q1"], figures["ratios"][4]["frame_ms_of_rounds"]["q1"].dump());
+  EXPECT_EQ(tagged["frame_vs_prefitted_median"], figures["ratios"][5]["frame_ms_of_rounds"]["median"].dump());
+}
+
+TEST(Pages, TheBenchsPageShowsItsFigures) {
+  const std::string page = benchPage(benchFigures());
+  expectWholePage(page);
+  EXPECT_THAT(page, HasSubstr("Measured on &lt;none&gt;, pictures of 64 x 32 pixels"));
+  EXPECT_EQ(count(page, "<svg "), 2u);
+  EXPECT_EQ(count(page, "class=\"mark "), 12u) << "two plots of three techniques at two numbers of people";
+  EXPECT_EQ(count(page, "<polyline "), 6u);
+  // 20 people, the longest time 40: the last mark of naive stands at the right, half way up, and one
+  // place to the left of the next technique.
+  EXPECT_THAT(page, HasSubstr("<circle cx=\"633.00\" cy=\"185.00\" r=\"4.5\" class=\"mark fill-naive\""));
+  EXPECT_THAT(page, HasSubstr("Counts of one frame, the same in every round<"));
+  Json varying = benchFigures();
+  varying["rows"][1]["vertex_invocations_differ_by"] = 3;
+  EXPECT_THAT(benchPage(varying), HasSubstr("the same in every round but for the vertex invocations"));
+  Json blind = benchFigures();
+  for (Json& row : blind["rows"]) row["vertex_invocations"] = nullptr;
+  EXPECT_THAT(benchPage(blind), HasSubstr("This device does not count vertex invocations."));
+  EXPECT_THAT(benchTable(blind), HasSubstr(" - "));
+}
+
+}  // namespace
+}  // namespace ensemble::cli
