@@ -283,7 +283,7 @@ void readPlacement(const YamlValue& value, const std::filesystem::path& base, Sc
     value.fail("the placement has no paths", "add 'paths:' with a list of them");
   }
   if (placement.kind == PlacementKind::kFile && placement.file.value.empty()) {
-    value.fail("the placement has no file", "add 'file: FILE', a trajectory or a table of people");
+    value.fail("the placement has no file", "add 'file: FILE' with trajectories");
   }
 }
 

@@ -66,7 +66,7 @@ struct ScenePlacement {
   float jitter = 0.0f;           ///< grid, formation: share of the spacing, 0 .. 0.45
   std::uint32_t columns = 0;     ///< formation, grid: people in a rank; 0: as square as possible
   std::vector<ScenePath> paths;
-  Marked<std::filesystem::path> file;  ///< trajectory or table of people, resolved against the scene's folder
+  Marked<std::filesystem::path> file;  ///< trajectories, resolved against the scene's folder
   SceneWalking walking;
 };
 
