@@ -189,8 +189,7 @@ TEST(SceneErrors, PlacementsRefuseEachOthersKeys) {
     return errorAfterHead("crowd: {count: 1, placement: {" + keys + "}}\n");
   };
   EXPECT_EQ(placement("kind: paths"), "3:30: the placement has no paths; add 'paths:' with a list of them");
-  EXPECT_EQ(placement("kind: file"),
-            "3:30: the placement has no file; add 'file: FILE' with trajectories");
+  EXPECT_EQ(placement("kind: file"), "3:30: the placement has no file; add 'file: FILE' with trajectories");
   EXPECT_EQ(placement("file: a.txt"),
             "3:37: crowd.placement.file means nothing for 'kind: grid'; remove it, or give 'kind: file'");
   EXPECT_EQ(placement("kind: paths, columns: 3"),
