@@ -179,7 +179,7 @@ RegionNames assignRegions(const RawAsset& asset, const SegmentOptions& options, 
     std::string region;
     if (options.by == SegmentBy::kMaterial) {
       region = material;
-      if (region.empty()) {
+      if (region.empty() || !asset.materials[face.primitive->material].has_name) {
         throw InputError({file, "/materials", "the template's faces have no material name to make regions of",
                           "give each part of the body a named material, or use --regions joints"});
       }

@@ -165,6 +165,7 @@ class OutfitTagger {
         }
       }
       if (garment.parts.empty()) continue;
+      if (garment.parts.size() < node.primitives.size()) judgeMixedNode(node, garment);
       if (!node.skinned) {
         fail(node.json_pointer, "garment '" + node.name + "' is not skinned",
              "bind it to the skeleton, parent it to a joint, or leave it out of the export");
@@ -178,12 +179,43 @@ class OutfitTagger {
     if (body_primitives_.empty()) failWithoutBody();
   }
 
+  /// A node with both body and other materials: where the others' faces are the template's, their
+  /// name is wrong; else they may be clothes, or a part of the body that the template lacks.
+  void judgeMixedNode(const RawMeshNode& node, const Garment& garment) {
+    for (const RawPrimitive& part : garment.parts) {
+      std::vector<EmbeddedFace> faces;
+      appendFaces(part, EmbeddedFace::kAnyMaterial, faces);
+      const std::string what = fmt::format("the {} faces of material '{}' in node '{}'", faces.size(),
+                                           outfit_.materials[part.material].name, node.name);
+      if (2 * matchFaces(body_, faces, options_.tolerance).unmatched < faces.size()) {
+        fail(node.json_pointer, what + " are the template's body, which has no region of this name",
+             "name the material as the template's (" + listNames(regionMaterials()) +
+                 "), or export it as a node of its own if it is a garment");
+      }
+      warnings_.push_back(what + " are in no region of the template (" + listNames(regionMaterials()) +
+                          "), so they count as a garment");
+    }
+  }
+
+  std::vector<std::string> regionMaterials() const {
+    std::vector<std::string> names;
+    for (const BodyPart& part : body_.parts) names.push_back(body_.materials[part.material].name);
+    return names;
+  }
+
+  static void appendFaces(const RawPrimitive& primitive, std::uint32_t material,
+                          std::vector<EmbeddedFace>& faces) {
+    for (const Triangle& face : primitive.faces) {
+      EmbeddedFace& added = faces.emplace_back();
+      added.material = material;
+      for (std::size_t k = 0; k < 3; ++k) added.corners[k] = primitive.vertices[face[k]].position;
+    }
+  }
+
   [[noreturn]] void failWithoutBody() const {
-    std::vector<std::string> regions;
-    for (const BodyPart& part : body_.parts) regions.push_back(body_.materials[part.material].name);
     fail("/materials",
          "there is no body in this outfit: no material is named as one of the template's (" +
-             listNames(regions) + ")",
+             listNames(regionMaterials()) + ")",
          "export the outfit with the body that it dresses, its materials named as the template's, or use "
          "--body NODE");
   }
@@ -212,13 +244,7 @@ class OutfitTagger {
 
   void matchBody() {
     std::vector<EmbeddedFace> embedded;
-    for (const BodyPrimitive& part : body_primitives_) {
-      for (const Triangle& face : part.primitive->faces) {
-        EmbeddedFace& added = embedded.emplace_back();
-        added.material = part.material;
-        for (std::size_t k = 0; k < 3; ++k) added.corners[k] = part.primitive->vertices[face[k]].position;
-      }
-    }
+    for (const BodyPrimitive& part : body_primitives_) appendFaces(*part.primitive, part.material, embedded);
     matches_ = matchFaces(body_, embedded, options_.tolerance);
     refuseAnotherBody();
     item_.visible.assign(body_.faces.size(), 0);

@@ -37,11 +37,20 @@ class Descriptor {
 };
 
 [[noreturn]] void failWriting(const std::filesystem::path& file, int error) {
-  const char* mend = error == ENOSPC || error == EDQUOT  ? "free some space and run it again"
-                     : error == EACCES || error == EROFS ? "choose a folder that you may write to"
-                     : error == ENOENT                   ? "make its folder first"
-                                                         : "";
+  const char* mend = error == ENOSPC || error == EDQUOT ? "free some space and run it again"
+                     : error == EACCES || error == EROFS || error == EPERM
+                         ? "choose a folder that you may write to"
+                     : error == ENOENT ? "make its folder first"
+                     : error == EIO    ? "check the disk and run it again"
+                                       : "choose another place";
   throw SystemError({file.string(), "", std::string("can't be written: ") + std::strerror(error), mend});
+}
+
+[[noreturn]] void failReading(const std::filesystem::path& file, int error) {
+  const char* mend = error == EACCES || error == EPERM ? "make it readable"
+                     : error == EIO                    ? "check the disk and run it again"
+                                                       : "check the path";
+  throw SystemError({file.string(), "", std::string("can't be read: ") + std::strerror(error), mend});
 }
 
 std::filesystem::path folderOf(const std::filesystem::path& file) {
@@ -52,9 +61,15 @@ std::filesystem::path asideOf(const std::filesystem::path& file) {
   return folderOf(file) / ("." + file.filename().string() + "." + std::to_string(getpid()) + ".tmp");
 }
 
+/// A rename outlasts a crash once its folder is on the disk. The file is in place either way.
 void makeRenameLast(const std::filesystem::path& file) {
   const Descriptor folder(open(folderOf(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.number() >= 0) fsync(folder.number());
+  if (folder.number() < 0 || fsync(folder.number()) == 0) return;
+  const int error = errno;
+  if (error == EINVAL || error == ENOTSUP) return;  // a file system that does not know it
+  throw SystemError({file.string(), "",
+                     std::string("is written, but may not outlast a crash: ") + std::strerror(error),
+                     "check the disk and run it again"});
 }
 
 /// Writes all bytes; the error number, or 0.
@@ -146,12 +161,10 @@ std::vector<std::byte> readFile(const std::filesystem::path& file, std::uint64_t
     if (error == ENOENT || error == ENOTDIR) {
       throw InputError({file.string(), "", "no such file", "check the path"});
     }
-    throw SystemError({file.string(), "", std::string("can't be read: ") + std::strerror(error), ""});
+    failReading(file, error);
   }
   struct stat status {};
-  if (fstat(descriptor.number(), &status) != 0) {
-    throw SystemError({file.string(), "", std::string("can't be read: ") + std::strerror(errno), ""});
-  }
+  if (fstat(descriptor.number(), &status) != 0) failReading(file, errno);
   if (!S_ISREG(status.st_mode)) throw InputError({file.string(), "", "is not a regular file", "give a file"});
   const auto size = static_cast<std::uint64_t>(status.st_size);
   if (size > max_bytes) {
@@ -166,9 +179,7 @@ std::vector<std::byte> readFile(const std::filesystem::path& file, std::uint64_t
   while (done < bytes.size()) {
     const ssize_t count = read(descriptor.number(), bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      throw SystemError({file.string(), "", std::string("can't be read: ") + std::strerror(errno), ""});
-    }
+    if (count < 0) failReading(file, errno);
     if (count == 0) break;  // it shrank while being read
     done += static_cast<std::size_t>(count);
   }

@@ -24,6 +24,7 @@ struct GltfReadOptions {
   std::uint64_t max_file_bytes = 1ull << 30;
   std::uint32_t max_json_depth = 64;
   std::uint64_t max_json_bytes = 64ull << 20;
+  std::uint64_t max_json_values = 1ull << 22;
   std::uint64_t max_vertices = 1ull << 24;  ///< over all primitives; _TEMPLATE_VERTEX is a FLOAT
   std::uint64_t max_faces = 1ull << 25;
   std::uint32_t max_nodes = 1u << 16;

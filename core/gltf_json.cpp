@@ -5,32 +5,10 @@
 #include <cmath>
 
 #include "core/input_error.h"
+#include "core/json_limits.h"
 
 namespace ensemble {
 namespace {
-
-// Counts the deepest nesting of arrays and objects outside strings. The text may be malformed.
-void checkDepth(std::string_view text, const std::string& file, std::uint32_t max_depth) {
-  std::uint32_t depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > max_depth) {
-        throw InputError({file, fmt::format("byte {}", i),
-                          fmt::format("the JSON is nested more than {} deep", max_depth),
-                          "remove the nested extras"});
-      }
-    } else if ((c == ']' || c == '}') && depth > 0) {
-      --depth;
-    }
-  }
-}
 
 // "1.5", or the kind of the value where it is no number.
 std::string describe(const nlohmann::json& value) {
@@ -46,7 +24,7 @@ nlohmann::json parseGltfJson(std::string_view text, const std::string& file, con
          fmt::format("{} bytes of JSON are more than the {} allowed", text.size(), options.max_json_bytes),
          "split the file"});
   }
-  checkDepth(text, file, options.max_json_depth);
+  checkJsonLimits(text, file, {options.max_json_depth, options.max_json_values}, "remove the nested extras");
   try {
     nlohmann::json document = nlohmann::json::parse(text);
     if (!document.is_object()) throw InputError({file, "", "the JSON is not an object", kExportAgain});

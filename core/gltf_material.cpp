@@ -95,7 +95,10 @@ GltfMaterial readMaterial(const GltfDocument& document, std::size_t index, Dropp
   const JsonRef json = document.item("materials", index);
   GltfMaterial result;
   result.material.name = json.stringOr("name", "");
-  if (result.material.name.empty()) result.material.name = fmt::format("material {}", index);
+  if (result.material.name.empty()) {
+    result.material.name = fmt::format("material {}", index);
+    result.material.has_name = false;
+  }
   const auto extensions = json.find("extensions");
   const auto glossy = extensions ? extensions->find("KHR_materials_pbrSpecularGlossiness") : std::nullopt;
   if (glossy) {
@@ -137,6 +140,7 @@ std::vector<GltfMaterial> readMaterials(const GltfDocument& document, DroppedLis
   for (std::size_t i = 0; i < count; ++i) materials.push_back(readMaterial(document, i, dropped, warnings));
   GltfMaterial plain;
   plain.material.name = "default";
+  plain.material.has_name = false;
   materials.push_back(std::move(plain));
   return materials;
 }

@@ -28,6 +28,7 @@ class PrimitiveSource {
     if (const auto extensions = primitive.find("extensions")) {
       if (const auto draco = extensions->find("KHR_draco_mesh_compression")) openDraco(*draco, max_faces);
     }
+    if (!draco_) requireBytes(accessorIndex("POSITION"), vertex_count_, "vertices");
   }
 
   bool has(const std::string& name) const { return attributes_.has(name); }
@@ -55,7 +56,9 @@ class PrimitiveSource {
     if (draco_) {
       result = draco_->indices();
     } else if (const auto accessor = document_.findIndex(primitive_, "indices", "accessors")) {
-      limit(describeAccessor(document_, *accessor).count, 3 * max_faces, "indices");
+      const std::uint64_t count = describeAccessor(document_, *accessor).count;
+      limit(count, 3 * max_faces, "indices");
+      requireBytes(*accessor, count, "indices");
       result = readUnsigned(document_, *accessor, 1);
     } else {
       limit(vertex_count_, 3 * max_faces, "vertices without indices");
@@ -83,6 +86,13 @@ class PrimitiveSource {
       draco.fail(fmt::format("the Draco data hold {} vertices, the accessors {}", draco_->vertexCount(),
                              vertex_count_));
     }
+  }
+
+  /// An accessor without bufferView is of zeros: a few bytes of file that cost gigabytes when read.
+  void requireBytes(std::uint32_t accessor, std::uint64_t count, const char* what) const {
+    constexpr std::uint64_t kMostWithout = 1u << 16;
+    if (count <= kMostWithout || document_.item("accessors", accessor).has("bufferView")) return;
+    primitive_.fail(fmt::format("{} {} have no bufferView", count, what));
   }
 
   void limit(std::uint64_t count, std::uint64_t most, const char* what) const {

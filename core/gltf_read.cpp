@@ -126,6 +126,7 @@ bool isGlb(std::span<const std::byte> bytes) {
 RawAsset readGltf(const std::filesystem::path& file, const GltfReadOptions& options) {
   const std::vector<std::byte> bytes = readFile(file, options.max_file_bytes);
   const std::filesystem::path folder = file.parent_path();
+  if (bytes.empty()) throw InputError({file.string(), "", "the file is empty", kExportAgain});
   if (isGlb(bytes)) return readDocument(GltfDocument::fromGlb(bytes, file.string(), folder, options));
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark

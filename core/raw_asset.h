@@ -62,6 +62,7 @@ struct RawMaterial {
   AlphaMode alpha_mode = AlphaMode::kOpaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+  bool has_name = true;  ///< false: the file names none, and `name` is a stand-in
   bool operator==(const RawMaterial&) const = default;
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -9,6 +10,7 @@
 #include <valijson/validator.hpp>
 
 #include "core/input_error.h"
+#include "core/json_limits.h"
 #include "core/wardrobe_files.h"
 #include "embedded/kWardrobeJsonSchema.h"
 
@@ -17,6 +19,18 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 using nlohmann::json;
+
+constexpr const char* kMakeAgain = "make the wardrobe again with `ensemble tag`";
+
+/// "LINE:COLUMN" of the parser's byte, which counts from 1 and may stand just behind the end.
+std::string lineAndColumn(const std::string& text, std::size_t byte) {
+  std::size_t line = 1, column = 1;
+  for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
+    column = text[i] == '\n' ? 1 : column + 1;
+    line += text[i] == '\n' ? 1 : 0;
+  }
+  return std::to_string(line) + ":" + std::to_string(column);
+}
 
 /// A float as people would write it: six decimals at most.
 double rounded(float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; }
@@ -93,8 +107,9 @@ void checkSchema(const json& document, const std::string& file) {
     if (step == "<root>") continue;
     where += "/" + (step.size() > 2 && step.front() == '[' ? step.substr(1, step.size() - 2) : step);
   }
-  throw InputError(
-      {file, where.empty() ? "/" : where, error.description, "make the wardrobe again with `ensemble tag`"});
+  std::string what = error.description;  // a sentence; our messages have no full stop
+  if (what.ends_with('.')) what.pop_back();
+  throw InputError({file, where.empty() ? "/" : where, what, kMakeAgain});
 }
 
 void checkFileName(const std::string& name, const std::string& file, const std::string& where) {
@@ -103,8 +118,7 @@ void checkFileName(const std::string& name, const std::string& file, const std::
       path.is_absolute() || name.find('\0') != std::string::npos || name.find('\\') != std::string::npos;
   for (const auto& step : path) leaves = leaves || step == "..";
   if (leaves) {
-    throw InputError({file, where, "file '" + name + "' is not in the wardrobe's folder",
-                      "make the wardrobe again with `ensemble tag`"});
+    throw InputError({file, where, "file '" + name + "' is not in the wardrobe's folder", kMakeAgain});
   }
 }
 
@@ -114,8 +128,7 @@ void checkDistinctNames(const List& list, const std::string& file, const std::st
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (names.insert(list[i].name).second) continue;
     throw InputError({file, where + "/" + std::to_string(i) + "/name",
-                      "name '" + list[i].name + "' stands twice",
-                      "make the wardrobe again with `ensemble tag`"});
+                      "name '" + list[i].name + "' stands twice", kMakeAgain});
   }
 }
 
@@ -160,12 +173,15 @@ std::string writeManifest(const Manifest& manifest) {
 }
 
 Manifest parseManifest(const std::string& text, const std::string& file) {
+  constexpr std::uint32_t kMaxDepth = 16;
+  checkJsonLimits(text, file, {.max_depth = kMaxDepth}, kMakeAgain);
   json document;
   try {
     document = json::parse(text);
-  } catch (const json::exception& error) {
-    throw InputError({file, "", std::string("is not valid JSON: ") + error.what(),
-                      "make the wardrobe again with `ensemble tag`"});
+  } catch (const json::parse_error& error) {
+    throw InputError({file, lineAndColumn(text, error.byte), "the JSON is malformed", kMakeAgain});
+  } catch (const json::exception&) {  // out_of_range: 1e999
+    throw InputError({file, "", "the JSON has a number that is out of range", kMakeAgain});
   }
   checkVersion(document, file);
   checkSchema(document, file);
@@ -181,8 +197,7 @@ Manifest parseManifest(const std::string& text, const std::string& file) {
     checkFileName(manifest.outfits.back().file, file, where + "/file");
     if (!isValidItemName(manifest.outfits.back().name)) {
       throw InputError({file, where + "/name",
-                        "'" + manifest.outfits.back().name + "' can't be an outfit's name",
-                        "make the wardrobe again with `ensemble tag`"});
+                        "'" + manifest.outfits.back().name + "' can't be an outfit's name", kMakeAgain});
     }
   }
   checkDistinctNames(manifest.outfits, file, "/outfits");

@@ -169,6 +169,13 @@ TEST(Segment, RefusesWhatItCantUse) {
       segmentTube({}, nameless),
       "tube.glb: /materials: the template's faces have no material name to make regions of; give each "
       "part of the body a named material, or use --regions joints");
+  // A stand-in for a name that the file does not have makes no region either.
+  nameless.materials[1].name = "material 1";
+  nameless.materials[1].has_name = false;
+  EXPECT_INPUT_ERROR(
+      segmentTube({}, nameless),
+      "tube.glb: /materials: the template's faces have no material name to make regions of; give each "
+      "part of the body a named material, or use --regions joints");
   RawAsset boneless = testing::tubeTemplate();
   boneless.skeleton = {};
   EXPECT_INPUT_ERROR(

@@ -187,5 +187,27 @@ TEST(TagRegions, WarnsOnceOfACompleteBody) {
   EXPECT_THAT(none, IsEmpty());
 }
 
+TEST(TagRegions, ABodyMaterialThatTheTemplateLacksIsTold) {
+  RawAsset misnamed = halfDressed();
+  misnamed.materials[0].name = "tail";
+  misnamed.meshes[0].json_pointer = "/nodes/2";
+  EXPECT_INPUT_ERROR(tag(misnamed),
+                     "tunic.glb: /nodes/2: the 64 faces of material 'tail' in node 'body' are the template's "
+                     "body, which has no region of this name; name the material as the template's ('legs', "
+                     "'torso', 'head'), or export it as a node of its own if it is a garment");
+
+  // Elsewhere they are a garment, and a warning says so.
+  RawAsset tailed = halfDressed();
+  tailed.materials.push_back(tailed.materials[3]);
+  tailed.materials[4].name = "tail";
+  tailed.meshes[0].primitives.push_back(testing::tubeBand(4, 0.05f, 0.1f, 0.3f, 1));
+  std::vector<std::string> warnings;
+  const Item item = tag(tailed, &warnings);
+  EXPECT_EQ(item.garments.size(), 2u);
+  EXPECT_THAT(warnings, ::testing::ElementsAre(
+                            "the 16 faces of material 'tail' in node 'body' are in no region of the template "
+                            "('legs', 'torso', 'head'), so they count as a garment"));
+}
+
 }  // namespace
 }  // namespace ensemble

@@ -115,6 +115,13 @@ TEST(GltfHostile, TooMuchJson) {
       ::testing::MatchesRegex("x.glb: [0-9]+ bytes of JSON are more than the 100 allowed; split the file"));
 }
 
+TEST(GltfHostile, TooManyJsonValues) {
+  GltfReadOptions options;
+  options.max_json_values = 4;
+  EXPECT_EQ(refusal(TestGlb::fromText("{\"a\":[1,\"[,{\",{}]}"), options),
+            "x.glb: byte 13: the JSON has more than 4 values; remove the nested extras");
+}
+
 TEST(GltfHostile, Version) {
   TestGlb glb = triangleGlb();
   glb.json["asset"]["version"] = "1.0";
@@ -223,6 +230,17 @@ TEST(GltfHostile, HugeAccessorWithoutData) {
   EXPECT_EQ(refusal(glb),
             "x.glb: /meshes/0/primitives/0: 4000000000 vertices are more than the 16777216 still "
             "allowed in this file; split the file");
+}
+
+TEST(GltfHostile, ManyVerticesOrIndicesOfNoBytes) {
+  TestGlb glb = triangleGlb();
+  glb.json["accessors"][0] = {{"componentType", 5126}, {"count", 16000000u}, {"type", "VEC3"}};
+  EXPECT_EQ(refusal(glb),
+            "x.glb: /meshes/0/primitives/0: 16000000 vertices have no bufferView; export the file again");
+  glb = triangleGlb();
+  glb.json["accessors"][2] = {{"componentType", 5125}, {"count", 65537u}, {"type", "SCALAR"}};
+  EXPECT_EQ(refusal(glb),
+            "x.glb: /meshes/0/primitives/0: 65537 indices have no bufferView; export the file again");
 }
 
 TEST(GltfHostile, HugeIndexAccessorWithoutData) {

@@ -1,6 +1,12 @@
-// Drives a fuzz target without libFuzzer, as a test: every file of a corpus, and many damaged copies
-// of it, always the same ones. Usage: fuzz_NAME CORPUS_FOLDER MUTATIONS_PER_FILE
+// Drives a fuzz target without libFuzzer, as a test: every file of a corpus, and damaged copies of it,
+// always the same ones in the same order; how many depends on the time, but never fewer than kFewest.
+//   fuzz_NAME CORPUS_FOLDER SECONDS
+//   fuzz_NAME FILE MUTATION           one again: its number is told where a target fails
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +20,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {
+
+constexpr long kFewest = 100;
 
 /// SplitMix64: the same numbers on every machine.
 class Random {
@@ -72,32 +80,80 @@ int runOne(const std::string& bytes) {
   return LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
 }
 
+std::string readAll(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What is being run, for the signal handlers.
+const char* g_file = "";
+long g_mutation = 0;
+
+constexpr unsigned kMostSecondsAnInput = 30;
+
+void tellAndEnd(int signal) {
+  char line[300];
+  const int length =
+      std::snprintf(line, sizeof line, "signal %d at %s, mutation %ld\n", signal, g_file, g_mutation);
+  [[maybe_unused]] const auto written = write(STDOUT_FILENO, line, static_cast<std::size_t>(length));
+  std::_Exit(1);
+}
+
+/// Mutation `number` of a file; always the same.
+std::string mutated(const std::string& source, long number) {
+  Random random(static_cast<std::uint64_t>(number));
+  std::string bytes = source;
+  for (std::size_t count = 1 + random.below(4); count > 0; --count) mutateOnce(bytes, random);
+  return bytes;
+}
+
+struct Tally {
+  long accepted = 0, refused = 0;
+};
+
+/// Runs one mutation; a message where the target lets an exception through.
+bool runMutation(const std::filesystem::path& file, const std::string& source, long number, Tally& tally) {
+  const std::string bytes = mutated(source, number);
+  g_file = file.c_str();
+  g_mutation = number;
+  alarm(kMostSecondsAnInput);
+  try {
+    ++(runOne(bytes) == 0 ? tally.accepted : tally.refused);
+    return true;
+  } catch (const std::exception& error) {
+    std::printf("%s, mutation %ld: %s\n", file.c_str(), number, error.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return std::fprintf(stderr, "usage: %s CORPUS_FOLDER MUTATIONS_PER_FILE\n", argv[0]), 2;
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: %s CORPUS_FOLDER SECONDS | FILE MUTATION\n", argv[0]);
+    return 2;
+  }
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM})
+    std::signal(signal, tellAndEnd);
+  Tally tally;
+  if (std::filesystem::is_regular_file(argv[1])) {  // one again, that failed
+    return runMutation(argv[1], readAll(argv[1]), std::strtol(argv[2], nullptr, 10), tally) ? 0 : 1;
+  }
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(argv[1])) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  const long mutations = std::strtol(argv[2], nullptr, 10);
-  long accepted = 0, refused = 0;
+  std::vector<std::string> sources;
   for (const std::filesystem::path& file : files) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string source{std::istreambuf_iterator<char>(stream), {}};
-    if (runOne(source) != 0) return std::printf("%s of the corpus is refused\n", file.c_str()), 1;
-    for (long i = 0; i < mutations; ++i) {
-      Random random(static_cast<std::uint64_t>(i));
-      std::string bytes = source;
-      for (std::size_t count = 1 + random.below(4); count > 0; --count) mutateOnce(bytes, random);
-      try {
-        ++(runOne(bytes) == 0 ? accepted : refused);
-      } catch (const std::exception& error) {
-        std::printf("%s, mutation %ld: %s\n", file.c_str(), i, error.what());
-        std::ofstream("fuzz-failure.bin", std::ios::binary) << bytes;
-        return 1;
-      }
+    sources.push_back(readAll(file));
+    if (runOne(sources.back()) != 0) return std::printf("%s of the corpus is refused\n", file.c_str()), 1;
+  }
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::strtol(argv[2], nullptr, 10));
+  for (long number = 0; number < kFewest || std::chrono::steady_clock::now() < end; ++number) {
+    for (std::size_t f = 0; f < files.size(); ++f) {
+      if (!runMutation(files[f], sources[f], number, tally)) return 1;
     }
   }
-  std::printf("%zu files, %ld mutations accepted, %ld refused\n", files.size(), accepted, refused);
-  return files.empty() || refused == 0 ? 1 : 0;
+  std::printf("%zu files, %ld mutations accepted, %ld refused\n", files.size(), tally.accepted,
+              tally.refused);
+  return files.empty() || tally.refused == 0 ? 1 : 0;
 }
