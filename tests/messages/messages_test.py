@@ -173,8 +173,8 @@ OUTPUTS = [  # also for root, who passes by permissions
 RENDERING = [
     ("render clips.yaml -o a.png", 3, "clips.yaml: 4:33: the wardrobe 'walking' has no clip 'sway'; write 'walk'"),
     ("render nowhere.yaml -o a.png", 3, "nowhere.yaml: no such file; check the path"),
-    ("render scene.yaml -o a.bmp", 2, "-o a.bmp: pictures can't be written as '.bmp'; write PNG: name.png, name_%04d.png or a "
-                                      "folder dir/"),
+    ("render scene.yaml -o a.bmp", 2, "-o a.bmp: pictures can't be written as '.bmp'; write .png, .exr or .mp4: name.png, "
+                                      "name_%04d.exr, name.mp4, or a folder dir/"),
 ]
 DRAWING = [("render scene.yaml -o /proc/a.png", 1,
             "/proc/a.png: can't be written: No such file or directory; make its folder first")]

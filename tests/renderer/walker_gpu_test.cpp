@@ -47,7 +47,7 @@ TEST_F(WalkerGpuTest, PosesAreThoseOfTheHost) {
   const std::optional<Legs> legs = findLegs(body.skeleton);
   ASSERT_TRUE(legs);
   std::size_t leg_pixels = 0, blended = 0;
-  for (const double seconds : {0.0, 1.3, 4.1, 7.7}) {
+  for (double seconds = 0.0; seconds < 20.0; seconds += 1.7) {
     const Picture picture = draw(*renderer, view, seconds);
     for (std::uint32_t pixel = 0; pixel < picture.character.size(); ++pixel) {
       if (picture.character[pixel] == 0) continue;
@@ -71,7 +71,7 @@ TEST_F(WalkerGpuTest, PosesAreThoseOfTheHost) {
     }
   }
   EXPECT_GT(leg_pixels, 300u);
-  EXPECT_GT(blended, 50u) << "somebody stands or is about to";
+  EXPECT_GT(blended, 15u) << "somebody stands or is about to";
 }
 
 TEST_F(WalkerGpuTest, AFrameIsTheSameAloneAndInAnyOrder) {
