@@ -128,7 +128,8 @@ class WalkerEvaluation {
   void stretchStride(std::int64_t half_steps) {
     stretch_.foot_at_end = (stretch_.foot_at_begin + static_cast<std::size_t>(half_steps & 1)) & 1u;
     if (half_steps == 0) return;
-    double turns = static_cast<double>(half_steps / 2);
+    const std::int64_t whole_turns = half_steps / 2;
+    auto turns = static_cast<double>(whole_turns);
     if ((half_steps & 1) != 0) {
       const double next = middleOf(stretch_.foot_at_end) - middleOf(stretch_.foot_at_begin);
       turns += next - std::floor(next);
