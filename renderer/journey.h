@@ -49,7 +49,6 @@ class Journey {
 
   /// The place at a distance of the journey; beyond its ends too.
   Route::At placeAt(double distance) const { return route_.at(origin_ + distance); }
-  bool closed() const { return route_.closed(); }
   const std::vector<Stretch>& stretches() const { return stretches_; }
   double beginOf(const Stretch& stretch) const { return knots_[stretch.first_knot].distance; }
   double endOf(const Stretch& stretch) const { return knots_[stretch.last_knot].distance; }

@@ -61,9 +61,8 @@ class WalkerEvaluation {
   WalkerPose at(double seconds) {
     const Journey::Moment moment = journey_.at(walker_.head_start + seconds);
     findStretch(moment);
-    distance_ = moment.distance;
-    const double phase = stretch_.phaseAt(distance_);
-    const Route::At place = journey_.placeAt(distance_);
+    const double phase = stretch_.phaseAt(moment.distance);
+    const Route::At place = journey_.placeAt(moment.distance);
     WalkerPose pose;
     pose.exists = moment.exists;
     pose.position = place.position;
@@ -228,7 +227,7 @@ class WalkerEvaluation {
   const Journey& journey_;
   const WalkStyle& style_;
   float scale_;
-  double stride_, distance_ = 0.0;
+  double stride_;
   StretchPhase stretch_;
   bool stands_at_begin_ = false, stands_at_end_ = false;
 };
