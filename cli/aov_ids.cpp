@@ -7,28 +7,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The items of a combination by name, joined by "+"; empty for the bare body.
-std::string outfitName(const Wardrobe& wardrobe, const Combination& items) {
-  std::string name;
-  for (const ItemId item : items) name += (name.empty() ? "" : "+") + wardrobe.items[item].name;
-  return name;
-}
-
-Json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes, const Crowd& crowd) {
-  Json characters = Json::array();
-  for (std::size_t i = 0; i < crowd.characters.size(); ++i) {
-    const Character& person = crowd.characters[i];
-    const Wardrobe& wardrobe = wardrobes[person.wardrobe];
-    const std::vector<Clip>& clips = wardrobe.body.clips;
-    characters.push_back({{"number", i + 1},
-                          {"wardrobe", wardrobeName(scene.wardrobes[person.wardrobe])},
-                          {"outfit", outfitName(wardrobe, crowd.combinations[person.combination].items)},
-                          {"clip", clips.empty() ? "" : clips[person.clip].name},
-                          {"tint_seed", person.tint_seed}});
-  }
-  return characters;
-}
-
 Json describeOutfits(const std::string& key, const Wardrobe& wardrobe, std::uint32_t w,
                      const AovNumbers& numbers) {
   Json outfits = Json::array();
@@ -56,6 +34,28 @@ std::string wardrobeName(const SceneWardrobe& wardrobe) {
   return wardrobe.key.empty() ? wardrobe.folder.string() : wardrobe.key;
 }
 
+std::string outfitName(const Wardrobe& wardrobe, const Combination& items) {
+  std::string name;
+  for (const ItemId item : items) name += (name.empty() ? "" : "+") + wardrobe.items[item].name;
+  return name;
+}
+
+Json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes, const Crowd& crowd) {
+  Json characters = Json::array();
+  for (std::size_t i = 0; i < crowd.characters.size(); ++i) {
+    const Character& person = crowd.characters[i];
+    const Wardrobe& wardrobe = wardrobes[person.wardrobe];
+    const std::vector<Clip>& clips = wardrobe.body.clips;
+    characters.push_back({{"id", i + 1},
+                          {"number", i},
+                          {"wardrobe", wardrobeName(scene.wardrobes[person.wardrobe])},
+                          {"outfit", outfitName(wardrobe, crowd.combinations[person.combination].items)},
+                          {"clip", clips.empty() ? "" : clips[person.clip].name},
+                          {"tint_seed", person.tint_seed}});
+  }
+  return characters;
+}
+
 nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> wardrobes, const Crowd& crowd,
                               const AovNumbers& numbers) {
   Json ids = {{"schema", "ensemble.ids/1"},
@@ -67,20 +67,20 @@ nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> ward
     const std::string key = wardrobeName(scene.wardrobes[w]);
     for (std::size_t r = 0; r < wardrobes[w].body.regions.size(); ++r) {
       ids["regions"].push_back(
-          {{"number", r + 1}, {"wardrobe", key}, {"name", wardrobes[w].body.regions[RegionId(r)].name}});
+          {{"id", r + 1}, {"wardrobe", key}, {"name", wardrobes[w].body.regions[RegionId(r)].name}});
     }
     for (Json& outfit : describeOutfits(key, wardrobes[w], w, numbers))
       ids["outfits"].push_back(std::move(outfit));
   }
   for (std::size_t g = 0; g < numbers.garments.size(); ++g) {
-    ids["garments"].push_back({{"number", numbers.first_garment + g},
+    ids["garments"].push_back({{"id", numbers.first_garment + g},
                                {"wardrobe", wardrobeName(scene.wardrobes[numbers.garment_wardrobes[g]])},
                                {"name", numbers.garments[g]}});
   }
   ids["faces"] =
-      "where region is a number in regions: 1 + the face's number in the wardrobe's template.glb, its "
+      "where region is an id in regions: 1 + the face's number in the wardrobe's template.glb, its "
       "regions counted on in order, and after them 1 + the faces of the body that only the outfit has; "
-      "where it is a number in garments: 1 + the face's number in the garment, its parts counted on in "
+      "where it is an id in garments: 1 + the face's number in the garment, its parts counted on in "
       "order; 0: nobody";
   ids["depth"] = "metres along the view axis; 0: nothing there";
   ids["normal"] = "unit vector in the world; 0, 0, 0: nothing there";

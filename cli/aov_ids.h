@@ -10,13 +10,19 @@
 
 namespace ensemble::cli {
 
-/// {"schema": "ensemble.ids/1", "characters": [{number, wardrobe, outfit, clip, tint_seed}],
-///  "regions": [{number, wardrobe, name}], "garments": [{number, wardrobe, name}],
-///  "outfits": [{wardrobe, name, file, garments: [numbers]}], "faces", "depth", "normal": text}
+/// {"schema": "ensemble.ids/1", "characters": [{id, number, wardrobe, outfit, clip, tint_seed}],
+///  "regions": [{id, wardrobe, name}], "garments": [{id, wardrobe, name}],
+///  "outfits": [{wardrobe, name, file, garments: [ids]}], "faces", "depth", "normal": text}; `id` is what
+/// the AOV's channel holds, `number` the person's in the crowd, from 0.
 nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> wardrobes, const Crowd& crowd,
                               const AovNumbers& numbers);
 
 /// How a scene's wardrobe is called in figures: its key, or its folder where there is one only.
 std::string wardrobeName(const SceneWardrobe& wardrobe);
+/// The items of a combination by name, joined by "+"; empty for the bare body.
+std::string outfitName(const Wardrobe& wardrobe, const Combination& items);
+/// Its entry "characters".
+nlohmann::ordered_json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes,
+                                          const Crowd& crowd);
 
 }  // namespace ensemble::cli

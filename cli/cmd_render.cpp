@@ -4,6 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/annotation_file.h"
+#include "cli/annotations.h"
 #include "cli/aov_ids.h"
 #include "cli/command.h"
 #include "cli/frame_files.h"
@@ -22,7 +24,7 @@ using Json = nlohmann::ordered_json;
 struct RenderArguments {
   CommonOptions common;
   SceneArguments scene;
-  std::string output, aovs, frames;
+  std::string output, aovs, annotations, frames;
   bool resume = false;
 };
 
@@ -71,23 +73,37 @@ void run(const RenderArguments& arguments) {
   std::string ids;
   if (!aovs.empty()) ids = aovIds(scene, wardrobes, renderer.crowd(), renderer.aovNumbers()).dump(2) + "\n";
   FrameFiles files(names, scene.output, {.aovs = aovs, .ids = std::move(ids)});
+  std::optional<AnnotationFile> annotations;
+  if (!arguments.annotations.empty()) {
+    annotations.emplace(arguments.annotations, annotationHeader(scene, wardrobes, renderer.crowd()),
+                        arguments.resume);
+    view.aovs.add(Aov::kCharacter);
+    view.coverage = true;
+  }
 
   Json rows = Json::array(), skipped = Json::array();
   Picture picture;
   Progress progress("rendering", frames.size());
   for (const std::uint32_t frame : frames) {
-    if (arguments.resume && files.areFinished(frame)) {
+    const bool is_annotated = !annotations || annotations->has(frame);
+    if (arguments.resume && is_annotated && files.areFinished(frame)) {
       skipped.push_back(frame);
     } else {
       const double seconds = frame / double{scene.output.fps};
       view.camera = scene.camera.at(seconds);
       renderer.render(std::span(&view, 1), seconds, std::span(&picture, 1));
       files.write(frame, picture);
-      rows.push_back(toJson(frame, names.picture(frame).string(), picture.stats));
+      const std::string file = names.picture(frame).string();
+      if (annotations) {
+        annotations->add(frame,
+                         annotateFrame(scene, wardrobes, renderer.crowd(), view, picture, frame, file));
+      }
+      rows.push_back(toJson(frame, file, picture.stats));
     }
     progress.advance();
   }
   files.finish();
+  if (annotations) annotations->finish(frames);
   writeFigures(arguments.common, {{"schema", "ensemble.render/1"},
                                   {"device", renderer.deviceName()},
                                   {"frames", std::move(rows)},
@@ -113,6 +129,11 @@ void addRenderCommand(CLI::App& app) {
           "--aov", arguments->aovs,
           "Also write, as OpenEXR, any of character,region,face,depth,normal; NAME.ids.json explains them")
       ->type_name("LIST");
+  command
+      .add_option("--annotations", arguments->annotations,
+                  "Also write, as one JSON file, each frame's camera matrices and of each person who shows: "
+                  "boxes, visible share, joints (docs/pictures.md)")
+      ->type_name("FILE.json");
   command
       .add_option("--frames", arguments->frames,
                   "Which frames, e.g. 0-9,20; frame i is at i/fps seconds; default: all of output.frames")

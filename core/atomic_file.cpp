@@ -36,16 +36,6 @@ class Descriptor {
   int number_;
 };
 
-[[noreturn]] void failWriting(const std::filesystem::path& file, int error) {
-  const char* mend = error == ENOSPC || error == EDQUOT ? "free some space and run it again"
-                     : error == EACCES || error == EROFS || error == EPERM
-                         ? "choose a folder that you may write to"
-                     : error == ENOENT ? "make its folder first"
-                     : error == EIO    ? "check the disk and run it again"
-                                       : "choose another place";
-  throw SystemError({file.string(), "", std::string("can't be written: ") + std::strerror(error), mend});
-}
-
 [[noreturn]] void failReading(const std::filesystem::path& file, int error) {
   const char* mend = error == EACCES || error == EPERM ? "make it readable"
                      : error == EIO                    ? "check the disk and run it again"
@@ -92,6 +82,16 @@ void writeInPlace(const std::filesystem::path& file, std::span<const std::byte> 
 }
 
 }  // namespace
+
+void failWriting(const std::filesystem::path& file, int error) {
+  const char* mend = error == ENOSPC || error == EDQUOT ? "free some space and run it again"
+                     : error == EACCES || error == EROFS || error == EPERM
+                         ? "choose a folder that you may write to"
+                     : error == ENOENT ? "make its folder first"
+                     : error == EIO    ? "check the disk and run it again"
+                                       : "choose another place";
+  throw SystemError({file.string(), "", std::string("can't be written: ") + std::strerror(error), mend});
+}
 
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   // Devices and pipes (/dev/stdout) are written to, never replaced; through a symbolic link its target is.

@@ -17,6 +17,9 @@ namespace ensemble {
 void writeFileAtomically(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void writeFileAtomically(const std::filesystem::path& file, std::string_view text);
 
+/// Says why a file could not be written, with what mends it. @param error errno @throws SystemError
+[[noreturn]] void failWriting(const std::filesystem::path& file, int error);
+
 /// A file that another library writes bit by bit: it writes to `aside()`, in the same folder; `commit`
 /// makes that last and renames it over `file` as writeFileAtomically does. Without it, what was written
 /// aside is removed.

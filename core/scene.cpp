@@ -87,9 +87,9 @@ void readBackground(const YamlValue& value, SceneOutput& output) {
   if (value.isSequence()) {
     output.background = BackgroundKind::kColor;
     output.background_color = value.vector(kShareRange);
-  } else if (value.isWord("sky")) {
+  } else if (value.isText("sky")) {
     output.background = BackgroundKind::kSky;
-  } else if (value.isWord("transparent")) {
+  } else if (value.isText("transparent")) {
     output.background = BackgroundKind::kTransparent;
   } else {
     value.fail(value.description(), "give sky, transparent or a colour [r, g, b], each from 0 to 1");

@@ -171,6 +171,8 @@ bool YamlValue::isWord(std::string_view word) const {
   return isScalar() && !node_->is_quoted && node_->scalar == word;
 }
 
+bool YamlValue::isText(std::string_view text) const { return isScalar() && node_->scalar == text; }
+
 double YamlValue::number(const NumberRange& range) const {
   std::optional<double> value;
   if (isScalar() && !node_->is_quoted) value = parseDecimal(node_->scalar);

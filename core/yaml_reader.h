@@ -73,6 +73,8 @@ class YamlValue {
   bool isMap() const { return node_->kind == YamlKind::kMap; }
   /// The bare word `word`, not in quotes.
   bool isWord(std::string_view word) const;
+  /// The text `text`, bare or in quotes.
+  bool isText(std::string_view text) const;
   const std::string& path() const { return path_; }
   SourceMark mark() const;
 

@@ -121,6 +121,7 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
       shadow_queues_(device, layout_, assets, state),
       counter_(device, kPassCount),
       shadow_sampler_(makeShadowSampler(device)) {
+  for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
   visible_.reserve(state.characterCount());
   casters_.reserve(state.characterCount());
   pool_ = ENSEMBLE_VK(vk::raii::CommandPool(
@@ -158,6 +159,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
   findVisible(frustumOf(view), state_.bounds(), visible_);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
   buildShadowQueues(view, fit);
+  picture.coverage.assign(view.coverage ? state_.characterCount() : 0, 0);
   for (std::uint32_t i = 0; i < grid.count(); ++i) {
     // The shadow map that the first tile leaves behind serves the others.
     const bool is_first = i == 0;
@@ -175,6 +177,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     addStats(is_first, stats);
     if (!view.aovs.empty()) recordAovs(view, slot);
     readAovs(slot.targets, view, picture);
+    if (view.coverage) countCoverage(view, slot, picture.coverage);
   }
   picture.stats = stats;
 }
@@ -201,10 +204,10 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
     found = slots_.end() - 1;
   }
   if (view.linear) (*found)->targets.addLinearReadback(device_, limits_.max_buffer_bytes);
-  if (!view.aovs.empty()) {
-    (*found)->targets.addAovs(device_, limits_.max_buffer_bytes);
-    if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
-  }
+  if (!view.aovs.empty() || view.coverage) (*found)->targets.addAovs(device_, limits_.max_buffer_bytes);
+  if (!view.aovs.empty() && !aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
+  if (view.coverage && !coverage_pass_)
+    coverage_pass_ = std::make_unique<CoveragePass>(device_, layout_, assets_);
   return **found;
 }
 
@@ -242,6 +245,19 @@ void FrameLoop::recordAovs(const View& view, const Slot& slot) {
   aov_pass_->record(commands_, draw, slot.targets, view);
   ENSEMBLE_VK(commands_.end());
   submitAndWait();
+}
+
+void FrameLoop::countCoverage(const View& view, const Slot& slot, std::vector<std::uint32_t>& pixels) {
+  const CrowdDraw draw{
+      .assets = &assets_, .layout = &layout_, .queues = &main_queues_, .view_set = slot.view_set[0]};
+  coverage_pass_->plan(main_queues_);
+  for (std::size_t group = 0; group < coverage_pass_->groupCount(); ++group) {
+    ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
+    coverage_pass_->record(commands_, draw, slot.targets, view, group);
+    ENSEMBLE_VK(commands_.end());
+    submitAndWait();
+    coverage_pass_->collect(device_, first_of_chunk_, group, pixels);
+  }
 }
 
 void FrameLoop::submitAndWait() {

@@ -8,6 +8,7 @@
 
 #include "renderer/aov_pass.h"
 #include "renderer/color_pass.h"
+#include "renderer/coverage_pass.h"
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_state.h"
 #include "renderer/post_pass.h"
@@ -46,6 +47,8 @@ class FrameLoop {
   void buildShadowQueues(const View& view, const ShadowFit& fit);
   void record(const View& view, const Slot& slot, bool draws_shadows);
   void recordAovs(const View& view, const Slot& slot);
+  /// Adds what each person would cover of a tile.
+  void countCoverage(const View& view, const Slot& slot, std::vector<std::uint32_t>& pixels);
   void submitAndWait();
   /// Adds what the last submission drew.
   void addStats(bool drew_shadows, FrameStats& stats) const;
@@ -58,7 +61,8 @@ class FrameLoop {
   ShadowPass shadow_pass_;
   ColorPass color_pass_;
   PostPass post_pass_;
-  std::unique_ptr<AovPass> aov_pass_;  // made when first asked for
+  std::unique_ptr<AovPass> aov_pass_;            // made when first asked for
+  std::unique_ptr<CoveragePass> coverage_pass_;  // likewise
   QueueBuffers main_queues_, shadow_queues_;
   VertexCounter counter_;
   vk::raii::Sampler shadow_sampler_ = nullptr;
@@ -67,6 +71,7 @@ class FrameLoop {
   vk::raii::Fence fence_ = nullptr;
   std::vector<std::unique_ptr<Slot>> slots_;  // oldest first
   std::vector<std::uint32_t> visible_, casters_;
+  std::vector<std::uint32_t> first_of_chunk_;  // per chunk of people: the number of its first
 };
 
 }  // namespace ensemble

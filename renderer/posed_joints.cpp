@@ -61,7 +61,11 @@ std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& p
 }
 
 std::vector<Vec3> posedJoints(const TemplateBody& body, const CharacterPose& pose) {
-  const std::vector<Mat4> matrices = posedMatrices(body, pose);
+  return jointPositions(body, pose, posedMatrices(body, pose));
+}
+
+std::vector<Vec3> jointPositions(const TemplateBody& body, const CharacterPose& pose,
+                                 std::span<const Mat4> matrices) {
   std::vector<Vec3> joints;
   for (std::size_t j = 0; j < matrices.size(); ++j) {
     const Vec4 bind = glm::inverse(body.skeleton.joints[j].joint_from_model)[3];

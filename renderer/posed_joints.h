@@ -1,6 +1,7 @@
 // The pose pass on the host: where a person's joints are, for annotations and tests.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/wardrobe.h"
@@ -13,6 +14,9 @@ namespace ensemble {
 std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& pose);
 
 /// Where the joints are in the world, #joints, metres.
+/// @param matrices posedMatrices(body, pose)
+std::vector<Vec3> jointPositions(const TemplateBody& body, const CharacterPose& pose,
+                                 std::span<const Mat4> matrices);
 std::vector<Vec3> posedJoints(const TemplateBody& body, const CharacterPose& pose);
 
 }  // namespace ensemble

@@ -37,7 +37,8 @@ struct View {
   BackgroundKind background = BackgroundKind::kSky;
   Vec3 background_color{0.0f};  ///< sRGB, for BackgroundKind::kColor
   AovSet aovs;
-  bool linear = false;  ///< Picture::linear is wanted too
+  bool linear = false;    ///< Picture::linear is wanted too
+  bool coverage = false;  ///< Picture::coverage is wanted too
 
   bool drawsGround() const { return ground && background != BackgroundKind::kTransparent; }
 };
@@ -57,6 +58,9 @@ struct Picture {
   std::vector<std::uint32_t> face;       ///< 1 + the face's number in its source file
   std::vector<float> depth;              ///< metres along the view axis; 0: nothing there
   std::vector<float> normal;             ///< world space, 3 per pixel; 0: nothing there
+  /// Where the view asks for it: pixels that each person would cover if nothing stood in front, by the
+  /// rules of the AOVs; #people of the crowd. Empty otherwise.
+  std::vector<std::uint32_t> coverage;
   FrameStats stats;
 };
 

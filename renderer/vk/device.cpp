@@ -195,6 +195,7 @@ void Device::createDevice() {
                                          .drawIndirectFirstInstance = true,
                                          .depthClamp = true,
                                          .samplerAnisotropy = offered.samplerAnisotropy,
+                                         .occlusionQueryPrecise = offered.occlusionQueryPrecise,
                                          .pipelineStatisticsQuery = offered.pipelineStatisticsQuery};
   vk::PhysicalDeviceVulkan13Features v13{
       .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};

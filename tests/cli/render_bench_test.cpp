@@ -90,12 +90,12 @@ TEST_F(RenderCommand, AovsAreExplained) {
   const nlohmann::json ids = json("one.ids.json");
   EXPECT_EQ(ids["schema"], "ensemble.ids/1");
   ASSERT_EQ(ids["characters"].size(), 6u);
-  EXPECT_EQ(ids["characters"][5]["number"], 6);
+  EXPECT_EQ(ids["characters"][5]["id"], 6);
   EXPECT_EQ(ids["characters"][5]["outfit"], "tunic");
   EXPECT_EQ(ids["characters"][5]["clip"], "sway");
-  EXPECT_EQ(ids["regions"][2]["number"], 3);
+  EXPECT_EQ(ids["regions"][2]["id"], 3);
   EXPECT_EQ(ids["regions"][2]["name"], "head");
-  EXPECT_EQ(ids["garments"][0]["number"], 4);
+  EXPECT_EQ(ids["garments"][0]["id"], 4);
   EXPECT_EQ(ids["garments"][0]["name"], "garment.tunic");
   EXPECT_EQ(ids["outfits"][0]["garments"][0], 4);
 }

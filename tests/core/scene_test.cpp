@@ -114,6 +114,12 @@ ground: false
   EXPECT_FALSE(scene.ground);
 }
 
+TEST(Scene, WordsMayStandInQuotes) {
+  const Scene scene = parse(kHead + "technique: \"naive\"\noutput: {background: \"transparent\"}\n");
+  EXPECT_EQ(scene.technique, Technique::kNaive);
+  EXPECT_EQ(scene.output.background, BackgroundKind::kTransparent);
+}
+
 TEST(Scene, TakesOneNumberForScaleAndWordsForTheBackground) {
   const Scene scene = parse(kHead + "crowd: {count: 1, scale: 1.1}\noutput: {background: transparent}\n");
   EXPECT_THAT(scene.crowd.scale, ElementsAre(1.1f, 1.1f));
