@@ -329,7 +329,7 @@ Clip makeIdleClip(const Figure& figure, const RawSkeleton& skeleton) {
       poseArm(poser, side, {10.0f + 0.6f * breath, 2.0f + 1.2f * wave(phase, 0.55f) * sign, 14.0f + breath});
     }
     for (const int side : {0, static_cast<int>(kRightLeg)}) {
-      poser.placeAnkle(side, figure.joints[static_cast<std::size_t>(kFoot + side)]);
+      poser.placeAnkle(side, figure.joints[static_cast<std::size_t>(kFoot) + static_cast<std::size_t>(side)]);
       poser.set(kFoot + side, Quat(1, 0, 0, 0));
       poser.set(kBall + side, Quat(1, 0, 0, 0));
     }

@@ -29,7 +29,7 @@ Vec3 readColor(const YamlValue& value, std::span<const NamedColor> named) {
 }
 
 std::string readName(const YamlValue& value) {
-  const std::string name = value.text("a name");
+  std::string name = value.text("a name");
   constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   if (name.size() > 64 || name.find_first_not_of(kAllowed) != std::string::npos) {
     value.fail(value.description() + ", which can't be a folder's name",

@@ -33,7 +33,7 @@ void tellAbout(const std::string& file, const std::vector<std::string>& dropped,
                const std::vector<std::string>& warnings) {
   if (!dropped.empty()) {
     std::string list;
-    for (const std::string& what : dropped) list += (list.empty() ? "" : ", ") + what;
+    for (const std::string& what : dropped) list.append(list.empty() ? "" : ", ").append(what);
     logWarning(file + ": not used and dropped: " + list);
   }
   for (const std::string& warning : warnings) logWarning(file + ": " + warning);

@@ -2,6 +2,8 @@
 // the mesh is not fragmented further).
 #include "assetpipe/segment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -194,8 +196,8 @@ RegionNames assignRegions(const RawAsset& asset, const SegmentOptions& options, 
             [&](const RegionRule& candidate) { return ruleTakes(candidate, material, joint_name, number); });
         if (rule == options.rules.end()) {
           throw InputError({file, "/meshes",
-                            "no region takes face " + std::to_string(number) + " (material '" + material +
-                                "', joint '" + joint_name + "')",
+                            fmt::format("no region takes face {} (material '{}', joint '{}')", number,
+                                        material, joint_name),
                             "name its material or joint in the --regions file"});
         }
         region = rule->name;
@@ -208,6 +210,7 @@ RegionNames assignRegions(const RawAsset& asset, const SegmentOptions& options, 
 
 struct VertexBytesLess {
   bool operator()(const RawVertex& a, const RawVertex& b) const {
+    // Any order will do that tells bits apart. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
     return std::memcmp(&a, &b, sizeof(RawVertex)) < 0;
   }
 };

@@ -82,7 +82,7 @@ class OutfitTagger {
     if (!ensemble.is_object()) return;
     const json slot = ensemble.value("slot", json()), layer = ensemble.value("layer", json());
     if (!slot.is_null()) {
-      if (!slot.is_string() || slot == "")
+      if (!slot.is_string() || slot.get_ref<const std::string&>().empty())
         fail("/scenes", "the custom property 'slot' is no text", "set a name");
       item_.slot = slot;
     }

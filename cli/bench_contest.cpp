@@ -21,13 +21,13 @@ auto exactCounts(const FrameStats& stats) {
 
 }  // namespace
 
-Contest::Contest(Scene scene, std::span<const Wardrobe> wardrobes, std::span<const Technique> techniques,
-                 bool validate)
+Contest::Contest(Scene scene, std::span<const Wardrobe> wardrobes, const EnvironmentMesh* environment,
+                 std::span<const Technique> techniques, bool validate)
     : view_(viewOf(scene)), pictures_(techniques.size()) {
   for (const Technique technique : techniques) {
     scene.technique = technique;
     renderers_.push_back(std::make_unique<Renderer>(RendererOptions{.validate = validate}));
-    renderers_.back()->load(scene, wardrobes);
+    renderers_.back()->load(scene, wardrobes, environment);
     rows_.push_back({.technique = technique, .characters = renderers_.back()->crowd().characters.size()});
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {

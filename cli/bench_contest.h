@@ -29,9 +29,10 @@ struct ContestRow {
 /// which compiles shaders, is not counted; it shows whether tagged and pre-fitted give the same picture.
 class Contest {
  public:
+  /// @param environment null where the scene has none
   /// @throws SystemError where the pictures differ; what Renderer throws
-  Contest(Scene scene, std::span<const Wardrobe> wardrobes, std::span<const Technique> techniques,
-          bool validate);
+  Contest(Scene scene, std::span<const Wardrobe> wardrobes, const EnvironmentMesh* environment,
+          std::span<const Technique> techniques, bool validate);
 
   /// @throws SystemError if a picture or a count is not that of the warm-up round
   void runRound();

@@ -20,6 +20,13 @@ Json spreadOf(const std::vector<double>& values) {
           {"max", quantile(values, 1.0)}};
 }
 
+Json toJson(const PassStats& environment) {
+  const std::optional<std::uint64_t> invocations = environment.vertex_invocations;
+  return {{"vertex_invocations", invocations ? Json(*invocations) : Json(nullptr)},
+          {"triangles", environment.triangles},
+          {"draw_calls", environment.draw_calls}};
+}
+
 Json toJson(const ContestRow& row) {
   const FrameStats& stats = row.stats;
   const std::optional<std::uint64_t> invocations = stats.vertexInvocations();
@@ -35,7 +42,9 @@ Json toJson(const ContestRow& row) {
           {"vertex_invocations_differ_by", row.most_invocations - row.least_invocations},
           {"triangles", stats.triangles()},
           {"draw_calls", stats.drawCalls()},
-          {"gpu_mesh_bytes", stats.gpu_mesh_bytes}};
+          {"gpu_mesh_bytes", stats.gpu_mesh_bytes},
+          {"environment_bytes", stats.environment_bytes},
+          {"environment", toJson(stats.environment)}};
 }
 
 Json ratio(double a, double b) { return b > 0.0 ? Json(a / b) : Json(nullptr); }

@@ -156,6 +156,8 @@ Findings inspectScene(const std::string& file) {
   found.json = {{"scene", file},
                 {"technique", toString(scene.technique)},
                 {"wardrobes", Json::array()},
+                {"environment",
+                 scene.environment.value.empty() ? Json(nullptr) : Json(scene.environment.value.string())},
                 {"crowd", scene.crowd.count ? Json(*scene.crowd.count) : Json(nullptr)},
                 {"people", scene.people.size()},
                 {"width", scene.output.width},
@@ -168,6 +170,8 @@ Findings inspectScene(const std::string& file) {
     found.text += fmt::format("wardrobe {}: {}\n", wardrobe.key.empty() ? "(only one)" : wardrobe.key,
                               wardrobe.folder.string());
   }
+  if (!scene.environment.value.empty())
+    found.text += fmt::format("environment {}\n", scene.environment.value.string());
   const std::string count = scene.crowd.count ? std::to_string(*scene.crowd.count)
                                               : "all of " + scene.crowd.placement.file.value.string();
   found.text += fmt::format("crowd of {}, {} named people\n", count, scene.people.size());

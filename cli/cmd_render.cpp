@@ -47,7 +47,9 @@ Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stat
           {"vertex_invocations", orNull(stats.vertexInvocations())},
           {"triangles", stats.triangles()},
           {"gpu_mesh_bytes", stats.gpu_mesh_bytes},
-          {"passes", {{"main", toJson(stats.main)}, {"shadow", toJson(stats.shadow)}}}};
+          {"environment_bytes", stats.environment_bytes},
+          {"passes", {{"main", toJson(stats.main)}, {"shadow", toJson(stats.shadow)}}},
+          {"environment", toJson(stats.environment)}};
 }
 
 void checkOutput(const RenderArguments& arguments, const Scene& scene, const FrameNames& names) {
@@ -65,8 +67,9 @@ void run(const RenderArguments& arguments) {
   const FrameNames names(arguments.output, static_cast<std::uint32_t>(frames.size()));
   checkOutput(arguments, scene, names);
   const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
+  const std::optional<EnvironmentMesh> environment = loadEnvironment(scene);
   Renderer renderer({.validate = arguments.scene.validate});
-  renderer.load(scene, wardrobes);
+  renderer.load(scene, wardrobes, environment ? &*environment : nullptr);
   View view = viewOf(scene);
   for (const Aov aov : aovs) view.aovs.add(aov);
   view.linear = names.format() == PictureFormat::kExr;

@@ -30,6 +30,16 @@ std::vector<Wardrobe> loadWardrobes(const Scene& scene) {
   return wardrobes;
 }
 
+std::optional<EnvironmentMesh> loadEnvironment(const Scene& scene) {
+  if (scene.environment.value.empty()) return std::nullopt;
+  EnvironmentMesh mesh = loadEnvironmentMesh(scene);
+  if (!mesh.dropped.empty()) {
+    logWarning(fmt::format("{}: not used and dropped: {}", mesh.file, fmt::join(mesh.dropped, ", ")));
+  }
+  for (const std::string& warning : mesh.warnings) logWarning(mesh.file + ": " + warning);
+  return mesh;
+}
+
 void refuseValidationMessages(const Renderer& renderer) {
   const std::vector<std::string> messages = renderer.validationMessages();
   if (messages.empty()) return;

@@ -210,6 +210,9 @@ DracoMesh::DracoMesh(const JsonRef& ref, std::span<const std::byte> bytes, std::
   } catch (const std::length_error&) {
     ref.fail("the Draco data ask for more memory than there is");
   }
+  // Whether integers are normalised is for the accessor to say, and encoders differ in what they tell Draco;
+  // Draco itself takes the flag from the file unchecked, as a bool that may be neither.
+  for (int i = 0; i < mesh_->num_attributes(); ++i) mesh_->attribute(i)->set_normalized(false);
   if (mesh_->num_faces() > max_faces || mesh_->num_points() > max_vertices) {
     ref.fail(fmt::format("the Draco data hold {} faces and {} vertices, the accessors {} and {}",
                          mesh_->num_faces(), mesh_->num_points(), max_faces, max_vertices));
@@ -231,12 +234,10 @@ std::vector<std::uint32_t> DracoMesh::indices() const {
 }
 
 std::vector<float> DracoMesh::floats(const JsonRef& unique_id, const GltfAccessor& accessor) const {
-  const draco::PointAttribute& attribute = findAttribute(*mesh_, unique_id, accessor.components);
   std::vector<float> values = readAttribute<float>(*mesh_, unique_id, accessor.components);
-  // Encoders differ in whether they tell Draco that integers are normalised; the accessor says it.
-  const bool scale = accessor.normalized && !attribute.normalized();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (scale) values[i] = static_cast<float>(fractionOf(static_cast<double>(values[i]), accessor.component));
+    if (accessor.normalized)
+      values[i] = static_cast<float>(fractionOf(static_cast<double>(values[i]), accessor.component));
     if (!std::isfinite(values[i])) {
       unique_id.fail(fmt::format("element {} is not a finite number", i / accessor.components));
     }

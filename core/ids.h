@@ -20,7 +20,7 @@ struct Id {
   constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
   static constexpr Id none() { return Id(); }
   constexpr bool valid() const { return value != kNone; }
-  constexpr auto operator<=>(const Id&) const = default;
+  constexpr auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr): it sees a 0
 };
 
 using FaceId = Id<struct FaceTag>;            ///< a triangle of the template, in source order

@@ -388,15 +388,18 @@ void readLight(const YamlValue& value, SceneLight& light) {
 
 void readScene(const YamlValue& root, Scene& scene) {
   if (root.kind() == YamlKind::kNull) root.fail("the scene is empty", "begin with 'version: 1'");
-  root.expectKeys(
-      {"version", "wardrobe", "technique", "output", "crowd", "people", "camera", "light", "ground"},
-      {"environment"});
+  root.expectKeys({"version", "wardrobe", "technique", "output", "environment", "crowd", "people", "camera",
+                   "light", "ground"});
   readVersion(root);
   readWardrobes(root, scene);
   if (const auto technique = root.find("technique")) {
     scene.technique = kAllTechniques[technique->word({"naive", "prefitted", "tagged"})];
   }
   if (const auto output = root.find("output")) readOutput(*output, scene.output);
+  if (const auto environment = root.find("environment")) {
+    scene.environment = {scene.file.parent_path() / environment->text("a glTF file"), environment->mark()};
+    scene.ground = false;  // A set has a floor of its own; two at y = 0 would flicker.
+  }
   if (const auto crowd = root.find("crowd")) readCrowd(*crowd, scene.file.parent_path(), scene.crowd);
   if (const auto people = root.find("people")) {
     for (const YamlValue& person : people->items("a list of people")) {

@@ -145,7 +145,8 @@ struct Scene {
   std::vector<ScenePerson> people;
   SceneCamera camera;
   SceneLight light;
-  bool ground = true;  ///< a ground plane at y = 0
+  Marked<std::filesystem::path> environment;  ///< a static set, glTF; empty: none
+  bool ground = true;  ///< a ground plane at y = 0; where there is an environment, only if the scene says so
 };
 
 /// `--set key.path=value`: the value is YAML; list entries by number (`people.0.phase=0.5`).

@@ -253,8 +253,7 @@ std::vector<YamlValue> YamlValue::members(const char* what) const {
   return values;
 }
 
-void YamlValue::expectKeys(std::initializer_list<std::string_view> known,
-                           std::initializer_list<std::string_view> later) const {
+void YamlValue::expectKeys(std::initializer_list<std::string_view> known) const {
   const std::vector<std::string> names(known.begin(), known.end());
   const std::string list = fmt::format("{}", fmt::join(names, ", "));
   if (!isMap()) fail(description(), fmt::format("give a map of the keys {}", list));
@@ -266,9 +265,6 @@ void YamlValue::expectKeys(std::initializer_list<std::string_view> known,
     key.column = entry.column;
     key.override_index = entry.override_index;
     const YamlValue place(*document_, key, joinPath(path_, entry.key));
-    if (std::find(later.begin(), later.end(), entry.key) != later.end()) {
-      place.fail(fmt::format("{} is not supported by this version yet", place.path()), "remove it");
-    }
     place.fail(fmt::format("unknown key {}{}", quotedName(entry.key), path_.empty() ? "" : " in " + path_),
                fmt::format("write {} (known: {})", quotedName(nearestNames(entry.key, names).front()), list));
   }

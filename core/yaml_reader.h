@@ -95,9 +95,8 @@ class YamlValue {
   std::vector<YamlValue> members(const char* what) const;
   std::string key() const { return key_; }
 
-  /// Checks that this is a map with no other keys than `known`. `later` are keys of coming versions.
-  void expectKeys(std::initializer_list<std::string_view> known,
-                  std::initializer_list<std::string_view> later = {}) const;
+  /// Checks that this is a map with no other keys than `known`.
+  void expectKeys(std::initializer_list<std::string_view> known) const;
   /// The value of a key, if it is there. @throws where the key has no value. @pre isMap()
   std::optional<YamlValue> find(std::string_view key) const;
 

@@ -1,5 +1,6 @@
 #include "renderer/aov_pass.h"
 
+#include "renderer/environment_pass.h"
 #include "spirv/aov.frag.h"
 #include "spirv/crowd.vert.h"
 #include "spirv/ground.vert.h"
@@ -81,6 +82,7 @@ void AovPass::recordDraws(const vk::raii::CommandBuffer& commands, const CrowdDr
   recordCrowd(commands, draw, nullptr, 0, [&](const DrawState& state) -> const vk::raii::Pipeline& {
     return people_[variantIndex(variantFor(state))];
   });
+  if (draw.environment.pass) draw.environment.pass->recordAovs(commands, draw);
   if (!view.drawsGround()) return;
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipelineLayout(), ENSEMBLE_SET_VIEW,
                               draw.view_set, nullptr);

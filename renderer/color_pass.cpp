@@ -1,5 +1,6 @@
 #include "renderer/color_pass.h"
 
+#include "renderer/environment_pass.h"
 #include "spirv/crowd.frag.h"
 #include "spirv/crowd.vert.h"
 #include "spirv/ground.frag.h"
@@ -84,6 +85,8 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
               [&](const DrawState& state) -> const vk::raii::Pipeline& {
                 return pipelines.people[variantIndex(variantFor(state))];
               });
+  if (draw.environment.pass)
+    draw.environment.pass->recordColor(commands, draw, targets.size.samples, counter);
   recordBackground(commands, draw, view);
   commands.endRendering();
   gpu::recordBarrier(commands, targets.linear,

@@ -1,4 +1,4 @@
-// The picture: garments, bodies, ground and sky, in linear light, resolved.
+// The picture: garments, bodies, environment, ground and sky, in linear light, resolved.
 #pragma once
 
 #include "renderer/crowd_draw.h"

@@ -11,12 +11,23 @@
 
 namespace ensemble {
 
+class EnvironmentPass;
+struct EnvironmentQueue;
+
+/// What to draw of the environment; nothing where there is none.
+struct EnvironmentDraw {
+  const EnvironmentPass* pass = nullptr;
+  const EnvironmentQueue* queue = nullptr;
+  std::uint32_t counted_pass = 0;
+};
+
 /// What to draw with what.
 struct CrowdDraw {
   const CrowdAssets* assets = nullptr;
   const CrowdLayout* layout = nullptr;
   const QueueBuffers* queues = nullptr;
   vk::DescriptorSet view_set;
+  EnvironmentDraw environment = {};
 };
 
 /// Counts vertex invocations of one pass at a time. Does nothing where the device can't.

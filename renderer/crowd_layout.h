@@ -12,6 +12,7 @@ class CrowdLayout {
  public:
   CrowdLayout(gpu::Device& device, const CrowdAssets& assets);
 
+  const vk::raii::DescriptorSetLayout& viewLayout() const { return view_; }
   const vk::raii::PipelineLayout& pipelineLayout() const { return pipeline_layout_; }
   gpu::DescriptorSets makeViewSets(const gpu::Device& device, std::uint32_t count) const;
   gpu::DescriptorSets makeCrowdSets(const gpu::Device& device, std::uint32_t count) const;

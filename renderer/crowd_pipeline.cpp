@@ -29,6 +29,22 @@ constexpr std::array<vk::VertexInputAttributeDescription, 5> kVertexAttributes =
      .format = vk::Format::eR16G16Snorm,
      .offset = offsetof(GpuVertex, normal_oct)},
 }};
+constexpr vk::VertexInputBindingDescription kStaticBinding{
+    .binding = 0, .stride = sizeof(GpuStaticVertex), .inputRate = vk::VertexInputRate::eVertex};
+constexpr std::array<vk::VertexInputAttributeDescription, 3> kStaticAttributes = {{
+    {.location = ENSEMBLE_ATTRIBUTE_POSITION,
+     .binding = 0,
+     .format = vk::Format::eR32G32B32Sfloat,
+     .offset = offsetof(GpuStaticVertex, position)},
+    {.location = ENSEMBLE_ATTRIBUTE_UV,
+     .binding = 0,
+     .format = vk::Format::eR32G32Sfloat,
+     .offset = offsetof(GpuStaticVertex, uv)},
+    {.location = ENSEMBLE_ATTRIBUTE_NORMAL,
+     .binding = 0,
+     .format = vk::Format::eR16G16Snorm,
+     .offset = offsetof(GpuStaticVertex, normal_oct)},
+}};
 constexpr std::array<vk::DynamicState, 3> kDynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                                       vk::DynamicState::eCullMode};
 constexpr float kShadowSlopeBias = -1.5f;  // Away from the sun, whose depth is 1.
@@ -43,10 +59,16 @@ constexpr std::array<vk::SpecializationMapEntry, 3> kVariantEntries = {{
 }};
 
 /// Shadows need position and skin alone, or the texture coordinates too where they discard.
-std::uint32_t attributeCount(const PipelineOptions& options) {
-  if (!options.draws_people) return 0;
-  if (!options.is_shadow) return 5;
-  return options.fragment_shader ? 4 : 3;
+vk::PipelineVertexInputStateCreateInfo vertexInputOf(const PipelineOptions& options) {
+  if (!options.draws_people && !options.draws_environment) return {};
+  const bool is_static = options.draws_environment;
+  const std::uint32_t least = is_static ? 1 : 3, all = is_static ? 3 : 5;
+  return {.vertexBindingDescriptionCount = 1,
+          .pVertexBindingDescriptions = is_static ? &kStaticBinding : &kVertexBinding,
+          .vertexAttributeDescriptionCount = !options.is_shadow        ? all
+                                             : options.fragment_shader ? least + 1
+                                                                       : least,
+          .pVertexAttributeDescriptions = is_static ? kStaticAttributes.data() : kVertexAttributes.data()};
 }
 
 }  // namespace
@@ -73,11 +95,7 @@ vk::raii::Pipeline makePipeline(const gpu::Device& device, const vk::raii::Pipel
        .pName = "main",
        .pSpecializationInfo = &constants},
   }};
-  const vk::PipelineVertexInputStateCreateInfo vertex_input{
-      .vertexBindingDescriptionCount = options.draws_people ? 1u : 0u,
-      .pVertexBindingDescriptions = &kVertexBinding,
-      .vertexAttributeDescriptionCount = attributeCount(options),
-      .pVertexAttributeDescriptions = kVertexAttributes.data()};
+  const vk::PipelineVertexInputStateCreateInfo vertex_input = vertexInputOf(options);
   const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
   const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
   const vk::PipelineRasterizationStateCreateInfo raster{

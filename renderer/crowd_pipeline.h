@@ -21,7 +21,8 @@ struct PipelineOptions {
   vk::ShaderModule vertex_shader = {};
   vk::ShaderModule fragment_shader = {};  ///< null: depth only
   ShaderVariant variant = {};
-  bool draws_people = true;  ///< vertices as in vertex.h; else the shader makes its own
+  bool draws_people = true;        ///< vertices are GpuVertex; else the shader makes its own
+  bool draws_environment = false;  ///< vertices are GpuStaticVertex, whatever draws_people says
   std::span<const vk::Format> color_formats = {};
   std::uint32_t samples = 1;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  ///< reversed depth

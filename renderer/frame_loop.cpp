@@ -108,10 +108,11 @@ void refuseBeyondViewport(const gpu::Device& device, const View& view) {
 }  // namespace
 
 FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-                     const FrameLimits& limits)
+                     const EnvironmentAssets* environment, const FrameLimits& limits)
     : device_(device),
       assets_(assets),
       state_(state),
+      environment_(environment),
       limits_(limits),
       layout_(device, assets),
       shadow_pass_(device, layout_, assets),
@@ -124,6 +125,11 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
   visible_.reserve(state.characterCount());
   casters_.reserve(state.characterCount());
+  if (environment_) {
+    environment_pass_ = std::make_unique<EnvironmentPass>(device, layout_, *environment_);
+    main_environment_ = environment_pass_->makeQueue();
+    shadow_environment_ = environment_pass_->makeQueue();
+  }
   pool_ = ENSEMBLE_VK(vk::raii::CommandPool(
       device.handle(), vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                  .queueFamilyIndex = device.queueFamily()}));
@@ -151,11 +157,12 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
 
 void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& picture) {
   refuseBeyondViewport(device_, view);
-  const ShadowFit fit = fitShadowMap(view, state_.bounds());
+  const ShadowFit fit = fitShadowMap(view, state_.bounds(), environment_ ? environment_->bounds() : Box());
   const TileGrid grid(view.width, view.height, limits_.tiles);
   Slot& slot = slotFor(view, grid, fit.size);
   FrameStats stats;
   stats.gpu_mesh_bytes = assets_.meshBytes();
+  stats.environment_bytes = environment_ ? environment_->meshBytes() : 0;
   findVisible(frustumOf(view), state_.bounds(), visible_);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
   buildShadowQueues(view, fit);
@@ -189,6 +196,7 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   if (found == slots_.end()) {
     if (slots_.size() == kMostSlots) slots_.erase(slots_.begin());
     color_pass_.prepare(view.samples);
+    if (environment_pass_) environment_pass_->prepare(view.samples);
     auto slot = std::make_unique<Slot>(
         Slot{.targets = ViewTargets(device_, size, limits_.max_buffer_bytes),
              .view_buffer = gpu::Buffer(device_, sizeof(GpuView), vk::BufferUsageFlagBits::eUniformBuffer,
@@ -205,15 +213,21 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   }
   if (view.linear) (*found)->targets.addLinearReadback(device_, limits_.max_buffer_bytes);
   if (!view.aovs.empty() || view.coverage) (*found)->targets.addAovs(device_, limits_.max_buffer_bytes);
-  if (!view.aovs.empty() && !aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
+  if (!view.aovs.empty()) {
+    if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
+    if (environment_pass_) environment_pass_->prepareAovs();
+  }
   if (view.coverage && !coverage_pass_)
     coverage_pass_ = std::make_unique<CoveragePass>(device_, layout_, assets_);
   return **found;
 }
 
 void FrameLoop::buildQueues(const View& view, const Tile& tile) {
-  findVisible(frustumOf(view, tile), state_.bounds(), visible_);
+  const Frustum frustum = frustumOf(view, tile);
+  findVisible(frustum, state_.bounds(), visible_);
   main_queues_.build(assets_, state_, visible_);
+  if (!environment_pass_) return;
+  environment_pass_->fill([&](const Box& box) { return frustum.touches(box); }, main_environment_);
 }
 
 void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
@@ -223,6 +237,9 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
     casters_.clear();
   }
   shadow_queues_.build(assets_, state_, casters_);
+  if (!environment_pass_) return;
+  environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },
+                          shadow_environment_);
 }
 
 void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
@@ -231,8 +248,10 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
   state_.recordPoses(commands_);
   CrowdDraw draw{
       .assets = &assets_, .layout = &layout_, .queues = &shadow_queues_, .view_set = slot.view_set[0]};
+  draw.environment = {environment_pass_.get(), &shadow_environment_, kEnvironmentShadow};
   if (draws_shadows) shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow);
   draw.queues = &main_queues_;
+  draw.environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain};
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain);
   post_pass_.record(commands_, slot.targets, slot.post_set[0], view.linear);
   ENSEMBLE_VK(commands_.end());
@@ -240,8 +259,11 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
 
 void FrameLoop::recordAovs(const View& view, const Slot& slot) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
-  const CrowdDraw draw{
-      .assets = &assets_, .layout = &layout_, .queues = &main_queues_, .view_set = slot.view_set[0]};
+  const CrowdDraw draw{.assets = &assets_,
+                       .layout = &layout_,
+                       .queues = &main_queues_,
+                       .view_set = slot.view_set[0],
+                       .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   aov_pass_->record(commands_, draw, slot.targets, view);
   ENSEMBLE_VK(commands_.end());
   submitAndWait();
@@ -271,14 +293,21 @@ void FrameLoop::submitAndWait() {
 }
 
 void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
-  const auto add = [&](const QueueBuffers& queues, Pass number, PassStats& pass) {
-    pass.draw_calls += queues.counts().draw_calls;
-    pass.triangles += queues.counts().triangles;
+  const auto add = [&](const DrawCounts& counts, Pass number, PassStats& pass) {
+    pass.draw_calls += counts.draw_calls;
+    pass.triangles += counts.triangles;
     const std::optional<std::uint64_t> invocations = counter_.result(device_, number);
     if (invocations) pass.vertex_invocations = pass.vertex_invocations.value_or(0) + *invocations;
   };
-  add(main_queues_, kMain, stats.main);
-  if (drew_shadows) add(shadow_queues_, kShadow, stats.shadow);
+  const auto add_environment = [&](const EnvironmentQueue& queue, Pass number, PassStats& pass) {
+    add(queue.counts, number, pass);
+    add(queue.counts, number, stats.environment);
+  };
+  add(main_queues_.counts(), kMain, stats.main);
+  add_environment(main_environment_, kEnvironmentMain, stats.main);
+  if (!drew_shadows) return;
+  add(shadow_queues_.counts(), kShadow, stats.shadow);
+  add_environment(shadow_environment_, kEnvironmentShadow, stats.shadow);
 }
 
 }  // namespace ensemble

@@ -11,6 +11,7 @@
 #include "renderer/coverage_pass.h"
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_state.h"
+#include "renderer/environment_pass.h"
 #include "renderer/post_pass.h"
 #include "renderer/queue_buffers.h"
 #include "renderer/shadow_pass.h"
@@ -26,7 +27,9 @@ struct FrameLimits {
 
 class FrameLoop {
  public:
-  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state, const FrameLimits& limits);
+  /// @param environment null where there is none
+  FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
+            const EnvironmentAssets* environment, const FrameLimits& limits);
 
   /// Draws views at a time, one after the other. @throws SystemError if targets don't fit
   void render(std::span<const View> views, double seconds, std::span<Picture> pictures);
@@ -38,7 +41,7 @@ class FrameLoop {
     gpu::Buffer view_buffer;
     gpu::DescriptorSets view_set, post_set;
   };
-  enum Pass : std::uint32_t { kShadow, kMain, kPassCount };
+  enum Pass : std::uint32_t { kShadow, kMain, kEnvironmentShadow, kEnvironmentMain, kPassCount };
 
   Slot& slotFor(const View& view, const TileGrid& grid, std::uint32_t shadow_size);
   /// Draws a view at the state's time, tile by tile; `start` is when its turn came.
@@ -56,6 +59,7 @@ class FrameLoop {
   gpu::Device& device_;
   const CrowdAssets& assets_;
   CrowdState& state_;
+  const EnvironmentAssets* environment_;
   FrameLimits limits_;
   CrowdLayout layout_;
   ShadowPass shadow_pass_;
@@ -63,6 +67,8 @@ class FrameLoop {
   PostPass post_pass_;
   std::unique_ptr<AovPass> aov_pass_;            // made when first asked for
   std::unique_ptr<CoveragePass> coverage_pass_;  // likewise
+  std::unique_ptr<EnvironmentPass> environment_pass_;
+  EnvironmentQueue main_environment_, shadow_environment_;
   QueueBuffers main_queues_, shadow_queues_;
   VertexCounter counter_;
   vk::raii::Sampler shadow_sampler_ = nullptr;

@@ -6,21 +6,23 @@
 
 namespace ensemble {
 
-/// One pass over the crowd.
+/// One pass over the crowd and the environment.
 struct PassStats {
-  std::uint64_t draw_calls = 0;  ///< instanced draws of people: one per sub-mesh with a queue
+  std::uint64_t draw_calls = 0;  ///< of people: one per sub-mesh with a queue; of the environment: per piece
   std::uint64_t triangles = 0;   ///< drawn, of all instances
   std::optional<std::uint64_t> vertex_invocations;  ///< measured; none where the device can't
 };
 
 struct FrameStats {
-  std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
-  std::uint32_t characters_posed = 0;  ///< people whose poses this view needed first at its time
-  PassStats shadow;                    ///< the shadow map
-  PassStats main;                      ///< the picture
-  std::uint64_t gpu_mesh_bytes = 0;    ///< vertices and indices of all meshes
-  double frame_ms = 0.0;               ///< from call to finished picture, AOVs left out
-  double cpu_ms = 0.0;                 ///< of that, before the device was given its work
+  std::uint32_t characters_drawn = 0;   ///< people whose bounds touch the picture
+  std::uint32_t characters_posed = 0;   ///< people whose poses this view needed first at its time
+  PassStats shadow;                     ///< the shadow map
+  PassStats main;                       ///< the picture
+  PassStats environment;                ///< what of these two is the environment
+  std::uint64_t gpu_mesh_bytes = 0;     ///< vertices and indices of all meshes of people
+  std::uint64_t environment_bytes = 0;  ///< vertices and indices of the environment
+  double frame_ms = 0.0;                ///< from call to finished picture, AOVs left out
+  double cpu_ms = 0.0;                  ///< of that, before the device was given its work
 
   std::uint64_t drawCalls() const { return shadow.draw_calls + main.draw_calls; }
   std::uint64_t triangles() const { return shadow.triangles + main.triangles; }

@@ -56,6 +56,7 @@ struct LoadedScene {
   AovNumbers numbers;
   std::unique_ptr<CrowdAssets> assets;
   std::unique_ptr<CrowdState> state;
+  std::unique_ptr<EnvironmentAssets> environment;
   std::unique_ptr<FrameLoop> frames;
 };
 
@@ -92,8 +93,9 @@ struct Renderer::Impl {
                                         sizeof(vec4) * std::uint64_t{device.limits().maxTexelBufferElements});
   }
 
-  void load(const Scene& scene, std::span<const Wardrobe> wardrobes) {
+  void load(const Scene& scene, std::span<const Wardrobe> wardrobes, const EnvironmentMesh* environment) {
     ENSEMBLE_CHECK(wardrobes.size() == scene.wardrobes.size());
+    ENSEMBLE_CHECK(environment != nullptr || scene.environment.value.empty());
     loaded.reset();  // Its memory is needed.
     LoadedScene next;
     next.crowd = std::make_unique<const Crowd>(populateCrowd(scene, wardrobes));
@@ -116,8 +118,12 @@ struct Renderer::Impl {
     next.assets = std::make_unique<CrowdAssets>(device, input);
     next.numbers.first_garment = next.assets->firstGarmentNumber();
     next.state = std::make_unique<CrowdState>(device, *next.crowd, animation, options.max_buffer_bytes);
+    if (environment) {
+      next.environment = std::make_unique<EnvironmentAssets>(
+          device, *environment, AssetLimits{.max_buffer_bytes = options.max_buffer_bytes});
+    }
     next.frames = std::make_unique<FrameLoop>(
-        device, *next.assets, *next.state,
+        device, *next.assets, *next.state, next.environment.get(),
         FrameLimits{.max_buffer_bytes = options.max_buffer_bytes, .tiles = options.tiles});
     loaded.emplace(std::move(next));
   }
@@ -132,8 +138,9 @@ Renderer::Renderer(const RendererOptions& options)
 
 Renderer::~Renderer() = default;
 
-void Renderer::load(const Scene& scene, std::span<const Wardrobe> wardrobes) {
-  atPublicFace([&] { impl_->load(scene, wardrobes); });
+void Renderer::load(const Scene& scene, std::span<const Wardrobe> wardrobes,
+                    const EnvironmentMesh* environment) {
+  atPublicFace([&] { impl_->load(scene, wardrobes, environment); });
 }
 
 void Renderer::render(std::span<const View> views, double seconds, std::span<Picture> pictures) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/environment_mesh.h"
 #include "core/scene.h"
 #include "core/wardrobe.h"
 #include "renderer/crowd.h"
@@ -44,10 +45,12 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Makes the scene's crowd and brings all it wears onto the device; replaces what was loaded.
-  /// The wardrobes are not needed afterwards.
+  /// Wardrobes and environment are not needed afterwards.
   /// @param wardrobes one for each of scene.wardrobes
+  /// @param environment that of the scene; null where it names none
   /// @throws InputError as populateCrowd, or for a damaged texture; SystemError for what does not fit
-  void load(const Scene& scene, std::span<const Wardrobe> wardrobes);
+  void load(const Scene& scene, std::span<const Wardrobe> wardrobes,
+            const EnvironmentMesh* environment = nullptr);
 
   /// Draws each view at a time in seconds. Two views in one call give exactly the pictures of two
   /// calls. Equal depths go to what is drawn first: garments, then body, in the lists' order.

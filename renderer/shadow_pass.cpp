@@ -1,5 +1,6 @@
 #include "renderer/shadow_pass.h"
 
+#include "renderer/environment_pass.h"
 #include "spirv/shadow.vert.h"
 #include "spirv/shadow_discard.frag.h"
 #include "spirv/shadow_discard.vert.h"
@@ -51,6 +52,7 @@ void ShadowPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw
               [&](const DrawState& state) -> const vk::raii::Pipeline& {
                 return pipelines_[variantIndex(variantFor(state))];
               });
+  if (draw.environment.pass) draw.environment.pass->recordShadow(commands, draw, counter);
   commands.endRendering();
   gpu::recordBarrier(commands, targets.shadow_map,
                      {.from_stage = Stage::eLateFragmentTests,

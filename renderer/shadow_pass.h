@@ -1,4 +1,4 @@
-// The shadow map: people as the sun sees them.
+// The shadow map: people and the environment as the sun sees them.
 #pragma once
 
 #include "renderer/crowd_draw.h"
@@ -10,7 +10,7 @@ class ShadowPass {
  public:
   ShadowPass(const gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets);
 
-  /// Draws the queues' people into the shadow map and makes it readable by fragment shaders.
+  /// Draws the queues' people and environment into the shadow map and makes it readable by fragment shaders.
   void record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const ViewTargets& targets,
               VertexCounter& counter, std::uint32_t counted_pass) const;
 

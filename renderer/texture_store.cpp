@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/input_error.h"
 #include "renderer/mip_chain.h"
 
 namespace ensemble {
@@ -46,6 +47,14 @@ TextureStore::TextureStore(gpu::Device& device, const std::vector<Source>& sourc
     // An array without textures is one texel, so that it can be bound.
     const bool used = layer_counts[i] > 0;
     const std::uint32_t side = used ? kSides[i] : 1;
+    if (layer_counts[i] > device.limits().maxImageArrayLayers) {
+      throw SystemError(
+          {.file = {},
+           .where = "Vulkan device " + device.name(),
+           .what = fmt::format("{} textures of {} x {} texels are more than its {}", layer_counts[i], side,
+                               side, device.limits().maxImageArrayLayers),
+           .mend = "use fewer textures"});
+    }
     arrays_[i] =
         gpu::Image(device,
                    {.width = side,

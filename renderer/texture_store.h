@@ -34,7 +34,8 @@ class TextureStore {
     std::string file;
   };
 
-  /// Decodes and uploads. @throws InputError for a damaged image, SystemError if it does not fit.
+  /// Decodes and uploads. @throws InputError for a damaged image, SystemError if it does not fit or there
+  /// are more of a size than an array has layers.
   TextureStore(gpu::Device& device, const std::vector<Source>& sources);
 
   const StoredTexture& texture(std::size_t source) const { return textures_[source]; }

@@ -10,6 +10,9 @@ namespace {
 constexpr float kNearestRange = 50.0f;  // metres: people this near always have shadows
 constexpr float kRangeFactor = 3.0f;
 constexpr float kLongestShadow = 12.0f;  // metres that a shadow on the ground may reach to matter
+constexpr float kLeastWithSet = 40.0f;   // metres that the shadow map may span for an environment's sake
+constexpr float kCoarserForSet = 2.0f;
+constexpr float kSetDepth = 500.0f;      // metres along the light within which an environment shadows itself
 constexpr float kFadeDistance = 260.0f;  // metres
 constexpr float kSteps = 4.0f;           // sizes of the shadow map between one and its double
 
@@ -57,16 +60,41 @@ std::uint32_t shadowMapSize(const View& view) {
   return size;
 }
 
-/// The extent of balls along the axes of the light.
-struct LightBox {
-  Vec3 low{std::numeric_limits<float>::max()};
-  Vec3 high{std::numeric_limits<float>::lowest()};
-  bool empty() const { return low.x > high.x; }
-  void add(Vec3 center, float radius) {
-    low = glm::min(low, center - Vec3(radius));
-    high = glm::max(high, center + Vec3(radius));
+/// What of a box may be seen within a distance along the view axis, as a box along the light's axes.
+Box seenAlongLight(const View& view, const Box& box, const Mat3& axes, float range) {
+  const CameraFrame frame = cameraFrame(view.camera);
+  const float tan_y = std::tan(0.5f * view.camera.fov_y);
+  const float tan_x = tan_y * static_cast<float>(view.width) / static_cast<float>(view.height);
+  Box seen, whole;
+  seen.add(view.camera.position * axes);
+  for (const float x : {-tan_x, tan_x}) {
+    for (const float y : {-tan_y, tan_y}) {
+      const Vec3 ray = frame.forward + frame.right * x + frame.up * y;
+      seen.add((view.camera.position + ray * range) * axes);
+    }
   }
-};
+  for (unsigned corner = 0; corner < 8; ++corner) whole.add(box.corner(corner) * axes);
+  return {glm::max(seen.low, whole.low), glm::min(seen.high, whole.high)};
+}
+
+/// Widens the box of the people, along the light's axes, for an environment.
+void addEnvironment(const Box& environment, const Mat3& axes, const Box& seen, Box& box) {
+  const bool is_seen = glm::all(glm::lessThan(seen.low, seen.high));
+  if (is_seen && box.empty()) {
+    box = seen;
+  } else if (is_seen) {
+    const Vec3 extent = box.extent();
+    const Vec3 reach(0.5f * std::max(kCoarserForSet * std::max(extent.x, extent.y), kLeastWithSet));
+    const Box limit{box.center() - reach, box.center() + reach};
+    box.low = glm::min(box.low, glm::max(seen.low, limit.low));
+    box.high = glm::max(box.high, glm::min(seen.high, limit.high));
+  }
+  if (box.empty()) return;
+  Box whole;
+  for (unsigned corner = 0; corner < 8; ++corner) whole.add(environment.corner(corner) * axes);
+  box.low.z = std::min(box.low.z, std::max(whole.low.z, box.low.z - kSetDepth));
+  box.high.z = std::max(box.high.z, std::min(whole.high.z, box.high.z + kSetDepth));
+}
 
 }  // namespace
 
@@ -109,6 +137,14 @@ bool Frustum::touches(const Sphere& sphere) const {
   return true;
 }
 
+bool Frustum::touches(const Box& box) const {
+  for (const Vec4& plane : planes) {
+    const Vec3 farthest = glm::mix(box.low, box.high, glm::greaterThan(Vec3(plane), Vec3(0.0f)));
+    if (glm::dot(Vec3(plane), farthest) + plane.w < 0.0f) return false;
+  }
+  return true;
+}
+
 Frustum frustumOf(const View& view) { return frustumOf(view, wholeOf(view)); }
 
 Frustum frustumOf(const View& view, const Tile& tile) {
@@ -132,7 +168,7 @@ void findVisible(const Frustum& frustum, std::span<const Sphere> bounds,
   }
 }
 
-ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds) {
+ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds, const Box& environment) {
   ShadowFit fit;
   fit.size = shadowMapSize(view);
   const Vec3 to_sun = toSun(view.light);
@@ -146,10 +182,15 @@ ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds) {
     if (frustum.touches(sphere)) nearest = std::min(nearest, distance(sphere));
   }
   const float range = std::max(kRangeFactor * nearest, kNearestRange);
-  LightBox box;
+  Box box;
   for (const Sphere& sphere : bounds) {
     if (distance(sphere) > range || !frustum.touches(withShadow(sphere, to_sun))) continue;
     box.add(sphere.center * axes, sphere.radius);
+  }
+  if (!environment.empty()) {
+    const bool sees_people = nearest < std::numeric_limits<float>::max();
+    const float seen_range = sees_people ? std::min(range, kFadeDistance) : kNearestRange;
+    addEnvironment(environment, axes, seenAlongLight(view, environment, axes, seen_range), box);
   }
   if (box.empty()) box.add(Vec3(0.0f), 1.0f);
 
@@ -173,6 +214,14 @@ void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vect
     const float reach = 1.0f + bounds[i].radius * scale;
     if (std::abs(center.x) <= reach && std::abs(center.y) <= reach) casters.push_back(i);
   }
+}
+
+bool mayCast(const ShadowFit& fit, const Box& box) {
+  const Vec4 center = fit.shadow_from_world * Vec4(box.center(), 1.0f);
+  const Mat3 shadow_axes(fit.shadow_from_world);
+  Vec3 reach(0.0f);
+  for (int axis = 0; axis < 3; ++axis) reach += glm::abs(shadow_axes[axis]) * (0.5f * box.extent()[axis]);
+  return std::abs(center.x) <= 1.0f + reach.x && std::abs(center.y) <= 1.0f + reach.y;
 }
 
 GpuView makeGpuView(const View& view, const Tile& tile, const ShadowFit& fit) {

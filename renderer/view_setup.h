@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/box.h"
 #include "renderer/sphere.h"
 #include "renderer/tile_grid.h"
 #include "renderer/view.h"
@@ -27,6 +28,7 @@ inline Tile wholeOf(const View& view) { return {0, 0, view.width, view.height}; 
 struct Frustum {
   Vec4 planes[5];  ///< unit normals: left, right, bottom, top, near
   bool touches(const Sphere& sphere) const;
+  bool touches(const Box& box) const;
 };
 Frustum frustumOf(const View& view);
 /// Those that bound a tile of it.
@@ -38,15 +40,21 @@ void findVisible(const Frustum& frustum, std::span<const Sphere> bounds, std::ve
 /// An orthographic shadow map over the people who matter to a view: who is seen, or whose shadow on
 /// the ground is, no farther away than three times the nearest, but 50 metres at least.
 /// Its size moves in steps and its place by whole texels, so that shadows do not swim.
+///
+/// An environment takes part by its box: what of it may be seen no farther away than that has shadows
+/// too, as far as the map then is at most twice as coarse as people alone have it, or 40 metres wide.
 struct ShadowFit {
   Mat4 shadow_from_world{1.0f};  ///< x, y in -1 .. 1; depth 1 towards the sun
   float texel_side = 0.0f;       ///< metres
   std::uint32_t size = 0;        ///< texels a side
 };
-ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds);
+ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds, const Box& environment = {});
 
 /// Numbers of the people who may cast into a shadow map, ascending.
 void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vector<std::uint32_t>& casters);
+
+/// Whether a box may cast into a shadow map.
+bool mayCast(const ShadowFit& fit, const Box& box);
 
 /// What the shaders read of a view when they draw a tile of it.
 GpuView makeGpuView(const View& view, const Tile& tile, const ShadowFit& fit);

@@ -9,6 +9,8 @@
 #define ENSEMBLE_SET_CROWD 1
 #define ENSEMBLE_SET_ASSETS 2
 #define ENSEMBLE_SET_TEXTURE 3
+// The environment's shaders have the view's set too, and then their own texture array.
+#define ENSEMBLE_SET_ENVIRONMENT_TEXTURE 1
 
 #define ENSEMBLE_BINDING_VIEW 0
 #define ENSEMBLE_BINDING_SHADOW_MAP 1
@@ -131,6 +133,13 @@ struct GpuMaterial {
   uint lower_tint_count;  ///< of these, for all parts but the topmost; 0: parts are not told apart
 };
 
+/// The material of a piece of the environment: push constants.
+struct GpuStaticMaterial {
+  vec4 base_color;  ///< linear
+  float alpha_cutoff;
+  uint texture_layer;
+};
+
 /// One view's constants, std140.
 struct GpuView {
   mat4 clip_from_world;
@@ -160,6 +169,8 @@ static_assert(sizeof(GpuDraw) == 16 && offsetof(GpuDraw, face_offset) == 12);
 static_assert(sizeof(GpuMaterial) == 64 && offsetof(GpuMaterial, tint) == 16 &&
               offsetof(GpuMaterial, tint_first) == 32 && offsetof(GpuMaterial, texture_layer) == 44 &&
               offsetof(GpuMaterial, alpha_cutoff) == 48 && offsetof(GpuMaterial, sheen) == 56);
+static_assert(offsetof(GpuStaticMaterial, alpha_cutoff) == 16 &&
+              offsetof(GpuStaticMaterial, texture_layer) == 20);
 static_assert(sizeof(GpuView) == 288 && offsetof(GpuView, shadow_from_world) == 64 &&
               offsetof(GpuView, camera) == 128 && offsetof(GpuView, zenith) == 272);
 }  // namespace ensemble

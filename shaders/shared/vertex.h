@@ -1,4 +1,5 @@
-// The vertex that the GPU holds for every mesh, body and garment alike. Compiled by C++ and GLSL.
+// The vertex that the GPU holds for every mesh of people, body and garment alike, and that of things that
+// never move. Compiled by C++ and GLSL.
 #ifndef ENSEMBLE_SHADERS_SHARED_VERTEX_H
 #define ENSEMBLE_SHADERS_SHARED_VERTEX_H
 
@@ -28,6 +29,16 @@ struct GpuVertex {
 static_assert(sizeof(GpuVertex) == 40);
 static_assert(offsetof(GpuVertex, normal_oct) == 12 && offsetof(GpuVertex, uv) == 16 &&
               offsetof(GpuVertex, joints) == 24 && offsetof(GpuVertex, weights) == 32);
+
+/// 24 bytes, in the world; formats as GpuVertex's.
+struct GpuStaticVertex {
+  float position[3];
+  std::int16_t normal_oct[2];
+  float uv[2];
+  bool operator==(const GpuStaticVertex&) const = default;
+};
+static_assert(sizeof(GpuStaticVertex) == 24);
+static_assert(offsetof(GpuStaticVertex, normal_oct) == 12 && offsetof(GpuStaticVertex, uv) == 16);
 
 }  // namespace ensemble
 #else

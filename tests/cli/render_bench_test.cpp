@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
+#include "tests/core/glb_builder.h"
 
 namespace ensemble {
 namespace {
@@ -116,6 +117,33 @@ TEST_F(RenderCommand, WithoutADeviceOneLineTellsHowToMend) {
   EXPECT_FALSE(fs::exists(folder_ / "one.png"));
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_THAT(version.out, HasSubstr("Vulkan device: none"));
+}
+
+TEST_F(RenderCommand, AnEnvironmentIsCountedApart) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  testing::TestGlb set = testing::triangleGlb();
+  set.add("cameras", {{"type", "perspective"}});
+  const std::vector<std::byte> glb = set.bytes();
+  std::ofstream(folder_ / "set.glb", std::ios::binary)
+      .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
+  const std::string said = "ensemble: warning: set.glb: not used and dropped: cameras\n";
+  const std::string options = " --set environment=set.glb --set 'output={width: 64, height: 48}'";
+  ProgramResult result = run("render scene.yaml -o one.png --json f.json" + options);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, said);
+  const nlohmann::json frame = json("f.json")["frames"][0];
+  EXPECT_EQ(frame["environment"]["triangles"], 2) << "in the picture and in the shadow map";
+  EXPECT_EQ(frame["environment"]["draw_calls"], 2);
+  EXPECT_EQ(frame["environment_bytes"], 3 * 24 + 3 * 2);
+  result = run("bench scene.yaml --rounds 1 --json b.json" + options);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, said) << "once, not for each technique";
+  for (const nlohmann::json& row : json("b.json")["rows"]) {
+    EXPECT_EQ(row["environment"]["triangles"], 2);
+    EXPECT_EQ(row["environment_bytes"], 3 * 24 + 3 * 2);
+  }
+  std::ofstream(folder_ / "set.yaml") << "version: 1\nwardrobe: w\nenvironment: set.glb\n";
+  EXPECT_THAT(run("inspect set.yaml").out, HasSubstr("\nenvironment set.glb\n"));
 }
 
 TEST_F(RenderCommand, APictureLargerThanATileIsDrawn) {

@@ -148,13 +148,13 @@ TEST(SceneErrors, WhatMustBeThere) {
             "input: scenes/a.yaml: 2:11: wardrobe is a list; give a wardrobe folder, or a map of them");
   EXPECT_EQ(errorOf("just text"),
             "input: scenes/a.yaml: 1:1: the file is 'just text'; give a map of the keys version, wardrobe, "
-            "technique, output, crowd, people, camera, light, ground");
+            "technique, output, environment, crowd, people, camera, light, ground");
 }
 
 TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(errorAfterHead("outptu: {}\n"),
-            "3:1: unknown key 'outptu'; write 'output' (known: version, wardrobe, technique, output, crowd, "
-            "people, camera, light, ground)");
+            "3:1: unknown key 'outptu'; write 'output' (known: version, wardrobe, technique, output, "
+            "environment, crowd, people, camera, light, ground)");
   EXPECT_EQ(errorAfterHead("output:\n  widht: 3\n"),
             "4:3: unknown key 'widht' in output; write 'width' (known: width, height, samples, frames, fps, "
             "background)");
@@ -166,9 +166,19 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
             "3:12: technique is 'taged'; give 'naive', 'prefitted' or 'tagged'; the nearest is 'tagged'");
 }
 
-TEST(SceneErrors, KeysOfComingVersionsAreToldSo) {
-  EXPECT_EQ(errorAfterHead("environment: street.glb\n"),
-            "3:1: environment is not supported by this version yet; remove it");
+TEST(Scene, AnEnvironmentTakesThePlaceOfTheGround) {
+  const Scene scene = parse(kHead + "environment: sets/street.glb\n");
+  EXPECT_EQ(scene.environment.value, "scenes/sets/street.glb");
+  EXPECT_EQ(scene.environment.mark.toString(), "3:14");
+  EXPECT_FALSE(scene.ground);
+  EXPECT_TRUE(parse(kHead + "ground: true\nenvironment: street.glb\n").ground);
+  EXPECT_TRUE(parse(kHead).environment.value.empty());
+  const Scene set = parse(kHead, {{"environment", "/abs/a.glb"}});
+  EXPECT_EQ(set.environment.value, "/abs/a.glb");
+  EXPECT_EQ(set.environment.mark.toString(), "environment");
+  EXPECT_EQ(errorAfterHead("environment: [a.glb]\n"), "3:14: environment is a list; give a glTF file");
+  EXPECT_EQ(errorAfterHead("environment: ''\n"), "3:14: environment is the text ''; give a glTF file");
+  EXPECT_EQ(errorAfterHead("environment:\n"), "3:1: environment has no value; give one, or remove the key");
 }
 
 TEST(SceneErrors, NumbersAreStrict) {
@@ -328,8 +338,6 @@ TEST(SceneOverrides, SayWhatIsWrongWithThem) {
             "usage: --set output={width: 1, width: 2}: the key 'width' is here a second time (first at 1:2); "
             "remove one of them");
   EXPECT_EQ(errorOf(text, {{"output", "{"}}).rfind("usage: --set output={: not valid YAML: ", 0), 0u);
-  EXPECT_EQ(errorOf(text, {{"environment", "a.glb"}}),
-            "usage: --set environment=a.glb: environment is not supported by this version yet; remove it");
 }
 
 TEST(SceneOverrides, AreSplitAtTheFirstEqualsSign) {
@@ -394,7 +402,6 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
       std::string in_table = map.empty() ? key : map + "." + key;
       for (std::size_t at; (at = in_table.find(".0")) != std::string::npos;) in_table.erase(at, 2);
       ++key_count;
-      if (key == "environment") continue;
       EXPECT_TRUE(text.find(key + ":") != std::string::npos) << in_table << " is not in the reference scene";
       const bool is_map = in_table == "output" || in_table == "crowd" || in_table == "people" ||
                           in_table == "camera" || in_table == "light" || in_table == "crowd.placement";
@@ -403,7 +410,7 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
           << in_table << " is not in docs/scene.md";
     }
   }
-  EXPECT_EQ(key_count, 9 + 6 + 7 + 15 + 6 + 2 + 9 + 7 + 4 + 2);
+  EXPECT_EQ(key_count, 10 + 6 + 7 + 15 + 6 + 2 + 9 + 7 + 4 + 2);
 }
 
 TEST(ReferenceScene, ItsAlternativesAreScenesToo) {

@@ -7,6 +7,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 import small_glb  # noqa: E402
+import small_set  # noqa: E402
 from small_glb import glb, outfit, template  # noqa: E402
 
 
@@ -94,6 +95,13 @@ def with_another_region():
     return document
 
 
+def far_set():
+    """The street of small_set.py, in millimetres from somewhere far away."""
+    document = small_set.street()
+    document.json["nodes"][0]["translation"] = [0, 0, 2e9]
+    return document
+
+
 def gltf_with_uri(uri):
     import json
     return json.dumps({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": uri}]}).encode()
@@ -144,6 +152,7 @@ def glbs():
         "no_names.glb": without_material_names().bytes(),
         "no_skin.glb": without_skin().bytes(),
         "no_body.glb": without_body().bytes(),
+        "far_set.glb": far_set().bytes(),
         "other_body.glb": another_body().bytes(),
         "misnamed.glb": with_misnamed_region().bytes(),
         "tail.glb": with_another_region().bytes(),

@@ -149,6 +149,10 @@ SCENES = {
     "camera: {fov_y: 180}": "5:17: camera.fov_y is '180'; give a number greater than 0 and less than 180 (degrees)",
     "light: {shadows: yes}": "5:18: light.shadows is 'yes'; give true or false",
     "ground: 010": "5:9: ground is '010'; give true or false",
+    "environment: none.glb": "5:14: the environment none.glb: no such file; check the path",
+    "environment: text.glb": "5:14: the environment text.glb: this is neither a GLB nor a .gltf; export as glTF 2.0",
+    "environment: w": "5:14: the environment w: is not a regular file; give a file",
+    "environment: [a.glb]": "5:14: environment is a list; give a glTF file",
     "technique: taged":
         "5:12: technique is 'taged'; give 'naive', 'prefitted' or 'tagged'; the nearest is 'tagged'",
     "people: {a: 1}": "5:9: people is a map; give a list of people",
@@ -172,6 +176,12 @@ OUTPUTS = [  # also for root, who passes by permissions
 
 RENDERING = [
     ("render clips.yaml -o a.png", 3, "clips.yaml: 4:33: the wardrobe 'walking' has no clip 'sway'; write 'walk'"),
+    ("render scene.yaml -o a.png --set environment=empty.glb", 3,
+     "scene.yaml: environment: the environment empty.glb: the file is empty" + AGAIN),
+    ("render scene.yaml -o a.png --set environment=index.glb", 3, "index.glb: " + GLBS["index.glb"]),
+    ("bench scene.yaml --set environment=far_set.glb", 3,
+     "far_set.glb: /nodes/0: a vertex of the node is more than 1000000 metres from the origin; scale the set to "
+     "metres and export it again"),
     ("render nowhere.yaml -o a.png", 3, "nowhere.yaml: no such file; check the path"),
     ("render scene.yaml -o a.bmp", 2, "-o a.bmp: pictures can't be written as '.bmp'; write .png, .exr or .mp4: name.png, "
                                       "name_%04d.exr, name.mp4, or a folder dir/"),

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "tests/renderer/gpu_fixture.h"
+#include "tests/support/small_sets.h"
 
 namespace {
 
@@ -54,10 +55,12 @@ TEST(Allocation, AFrameAllocatesNothing) {
   if (deviceName() == "none") GTEST_SKIP() << "there is no Vulkan device";
   Scene scene = testing::tubeScene(20);
   const std::vector<Wardrobe> wardrobes = {testing::tubeWardrobe()};
+  const EnvironmentMesh set = buildEnvironmentMesh(
+      testing::setOf({testing::floorAt(0.0f, 10.0f), testing::wallAt(-2.0f, -3.0f, 3.0f, 3.0f)}), "set.glb");
   for (const Technique technique : kAllTechniques) {
     scene.technique = technique;
     Renderer renderer;
-    renderer.load(scene, wardrobes);
+    renderer.load(scene, wardrobes, &set);
     std::vector<View> views(2, viewOf(scene));
     views[0].samples = 4;
     views[1].aovs = testing::allAovs();

@@ -10,6 +10,8 @@
 #include "spirv/aov.frag.h"
 #include "spirv/crowd.frag.h"
 #include "spirv/crowd.vert.h"
+#include "spirv/environment.frag.h"
+#include "spirv/environment.vert.h"
 #include "spirv/pose.comp.h"
 #include "spirv/shadow_discard.frag.h"
 
@@ -99,6 +101,16 @@ TEST(ShaderLayout, DrawsAndMaterials) {
   EXPECT_EQ(material.at("sheen"), offsetof(GpuMaterial, sheen));
   EXPECT_EQ(material.at("lower_tint_count"), offsetof(GpuMaterial, lower_tint_count));
   EXPECT_EQ(shader.strides.at("GpuMaterial"), sizeof(GpuMaterial));
+}
+
+TEST(ShaderLayout, TheEnvironment) {
+  const Reflection fragment(kEnvironmentFrag), vertex(kEnvironmentVert), crowd(kCrowdFrag);
+  const auto& material = fragment.offsets.at("GpuStaticMaterial");
+  EXPECT_EQ(material.at("base_color"), offsetof(GpuStaticMaterial, base_color));
+  EXPECT_EQ(material.at("alpha_cutoff"), offsetof(GpuStaticMaterial, alpha_cutoff));
+  EXPECT_EQ(material.at("texture_layer"), offsetof(GpuStaticMaterial, texture_layer));
+  EXPECT_EQ(fragment.offsets.at("GpuView"), crowd.offsets.at("GpuView"));
+  EXPECT_EQ(vertex.offsets.at("GpuView"), crowd.offsets.at("GpuView"));
 }
 
 TEST(ShaderLayout, TheView) {

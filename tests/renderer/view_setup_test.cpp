@@ -152,6 +152,67 @@ TEST(ShadowFit, MovesByWholeTexels) {
   EXPECT_GT(std::abs(shift.x) + std::abs(shift.y), 1.0f);
 }
 
+TEST(Frustum, TouchesBoxes) {
+  const View view = someView();
+  const Frustum frustum = frustumOf(view);
+  const auto around = [](Vec3 center, float half) { return Box{center - Vec3(half), center + Vec3(half)}; };
+  EXPECT_TRUE(frustum.touches(around(view.camera.target, 0.1f)));
+  EXPECT_TRUE(frustum.touches(around(view.camera.position, 500.0f))) << "the camera stands in it";
+  const Vec3 forward = glm::normalize(view.camera.target - view.camera.position);
+  EXPECT_FALSE(frustum.touches(around(view.camera.position - 10.0f * forward, 1.0f)));
+  const Vec3 right = cameraFrame(view.camera).right;
+  const Vec3 edge = view.camera.position + 10.0f * (forward + right * std::tan(0.35f) * 4.0f / 3.0f);
+  EXPECT_TRUE(frustum.touches(around(edge + 0.4f * right, 0.5f)));
+  EXPECT_FALSE(frustum.touches(around(edge + 2.0f * right, 0.5f)));
+}
+
+/// Where a point lies in a shadow map, and whether that is inside.
+bool holds(const ShadowFit& fit, Vec3 point) {
+  const Vec4 place = fit.shadow_from_world * Vec4(point, 1.0f);
+  return std::abs(place.x) <= 1.0f && std::abs(place.y) <= 1.0f && place.z >= 0.0f && place.z <= 1.0f;
+}
+
+TEST(ShadowFit, AnEnvironmentWidensIt) {
+  const View view = someView();
+  const Vec3 person = view.camera.target;
+  const std::vector<Sphere> bounds = {{person, 1.0f}};
+  const ShadowFit alone = fitShadowMap(view, bounds);
+  const Box room{person - Vec3(6.0f, 1.0f, 6.0f), person + Vec3(6.0f, 5.0f, 6.0f)};
+  const ShadowFit in_room = fitShadowMap(view, bounds, room);
+  const auto side = [](const ShadowFit& fit) { return fit.texel_side * static_cast<float>(fit.size); };
+  const Vec3 before = person + Vec3(0.0f, -0.9f, 2.0f);  // seen, and beside the person
+  EXPECT_FALSE(holds(alone, before));
+  EXPECT_TRUE(holds(in_room, before));
+  EXPECT_TRUE(holds(in_room, person));
+  EXPECT_LE(side(in_room), 40.0f * std::exp2(0.25f) * 1.02f);
+  // However large the set, the map stays about the people.
+  const Box city{Vec3(-900.0f), Vec3(900.0f)};
+  const ShadowFit in_city = fitShadowMap(view, bounds, city);
+  EXPECT_TRUE(holds(in_city, person));
+  EXPECT_LE(side(in_city), 40.0f * std::exp2(0.25f) * 1.02f);
+  const std::vector<Sphere> crowd = {{person, 30.0f}};
+  EXPECT_LE(side(fitShadowMap(view, crowd, city)), 2.0f * std::exp2(0.5f) * side(fitShadowMap(view, crowd)));
+  // What stands far away, unseen, changes nothing but depths.
+  const Box behind{view.camera.position + Vec3(0.0f, 0.0f, 900.0f),
+                   view.camera.position + Vec3(1.0f, 1.0f, 901.0f)};
+  EXPECT_EQ(fitShadowMap(view, bounds, behind).texel_side, alone.texel_side);
+  // Without people it is about what is seen of the set.
+  EXPECT_TRUE(holds(fitShadowMap(view, {}, room), person));
+}
+
+TEST(ShadowFit, BoxesCastWhereverTheyStandTowardsTheSun) {
+  const View view = someView();
+  const std::vector<Sphere> bounds = {{view.camera.target, 1.0f}};
+  const ShadowFit fit = fitShadowMap(view, bounds);
+  const Vec3 to_sun = -glm::normalize(view.light.direction);
+  const auto around = [](Vec3 center, float half) { return Box{center - Vec3(half), center + Vec3(half)}; };
+  EXPECT_TRUE(mayCast(fit, around(view.camera.target, 0.1f)));
+  EXPECT_TRUE(mayCast(fit, around(view.camera.target + 300.0f * to_sun, 0.1f)));
+  const Vec3 aside = glm::normalize(glm::cross(to_sun, Vec3(0.0f, 1.0f, 0.0f)));
+  EXPECT_FALSE(mayCast(fit, around(view.camera.target + 20.0f * aside, 0.1f)));
+  EXPECT_TRUE(mayCast(fit, around(view.camera.target + 20.0f * aside, 25.0f)));
+}
+
 TEST(ShadowFit, NobodyIsNoTrouble) {
   const ShadowFit fit = fitShadowMap(someView(), {});
   EXPECT_GT(fit.texel_side, 0.0f);

@@ -7,8 +7,8 @@ import json
 import math
 import struct
 
-FLOAT, USHORT, UBYTE = 5126, 5123, 5121
-FORMATS = {FLOAT: "f", USHORT: "H", UBYTE: "B"}
+FLOAT, UINT, USHORT, UBYTE = 5126, 5125, 5123, 5121
+FORMATS = {FLOAT: "f", UINT: "I", USHORT: "H", UBYTE: "B"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 SEGMENTS, RINGS = 8, 4
 REGIONS = ["legs", "torso", "head"]
@@ -20,12 +20,16 @@ class Document:
 
     def __init__(self):
         self.json = {"asset": {"version": "2.0"}, "scene": 0}
-        self.accessors, self.rows = [], []
+        self.accessors, self.rows, self.images = [], [], []
 
     def accessor(self, component, kind, rows):
         self.accessors.append({"componentType": component, "type": kind, "count": len(rows)})
         self.rows.append([list(row) if isinstance(row, (tuple, list)) else [row] for row in rows])
         return len(self.rows) - 1
+
+    def add_image(self, mime_type, data):
+        self.images.append((mime_type, data))
+        return len(self.images) - 1
 
     def bytes(self, change_json=lambda document: None):
         """The GLB's bytes; `change_json` may break the finished JSON."""
@@ -39,8 +43,14 @@ class Document:
             if entry["type"] == "VEC3":
                 entry["min"] = [min(column) for column in zip(*rows)]
                 entry["max"] = [max(column) for column in zip(*rows)]
+        images = []
+        for mime_type, data in self.images:
+            images.append({"mimeType": mime_type, "bufferView": len(views)})
+            views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+            binary += data + b"\0" * (-len(data) % 4)
         document = json.loads(json.dumps(
-            {**self.json, "accessors": self.accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}))
+            {**self.json, **({"images": images} if images else {}), "accessors": self.accessors, "bufferViews": views,
+             "buffers": [{"byteLength": len(binary)}]}))
         change_json(document)
         return glb(json.dumps(document), bytes(binary))
 

@@ -1,0 +1,11 @@
+// The environment as the sun sees it.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/crowd_types.h"
+#include "shaders/shared/vertex.h"
+
+layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
+
+layout(location = ENSEMBLE_ATTRIBUTE_POSITION) in vec3 world;
+
+void main() { gl_Position = view.shadow_from_world * vec4(world, 1.0); }
