@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
+#include "renderer/scene_names.h"
+
 namespace ensemble::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The items of a combination by name, joined by "+"; empty for the bare body.
-std::string outfitName(const Wardrobe& wardrobe, const Combination& items) {
-  std::string name;
-  for (const ItemId item : items) name += (name.empty() ? "" : "+") + wardrobe.items[item].name;
-  return name;
-}
 
 Json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes, const Crowd& crowd) {
   Json characters = Json::array();

@@ -6,6 +6,7 @@
 
 #include "cli/aov_ids.h"
 #include "cli/command.h"
+#include "cli/crowd_dump.h"
 #include "cli/frame_files.h"
 #include "cli/frame_list.h"
 #include "cli/scene_run.h"
@@ -22,7 +23,7 @@ using Json = nlohmann::ordered_json;
 struct RenderArguments {
   CommonOptions common;
   SceneArguments scene;
-  std::string output, aovs, frames;
+  std::string output, aovs, frames, crowd_file;
   bool resume = false;
 };
 
@@ -58,6 +59,7 @@ void checkOutput(const RenderArguments& arguments, const Scene& scene, const Fra
 
 void run(const RenderArguments& arguments) {
   const std::vector<Aov> aovs = parseAovs(arguments.aovs);
+  checkCrowdDump(arguments.crowd_file, arguments.common.json_file);
   const Scene scene = loadSceneOf(arguments.scene);
   const std::vector<std::uint32_t> frames = parseFrames(arguments.frames, scene.output.frames);
   const FrameNames names(arguments.output, static_cast<std::uint32_t>(frames.size()));
@@ -71,6 +73,7 @@ void run(const RenderArguments& arguments) {
   std::string ids;
   if (!aovs.empty()) ids = aovIds(scene, wardrobes, renderer.crowd(), renderer.aovNumbers()).dump(2) + "\n";
   FrameFiles files(names, scene.output, {.aovs = aovs, .ids = std::move(ids)});
+  if (!arguments.crowd_file.empty()) dumpCrowd(arguments.crowd_file, scene, wardrobes, renderer.crowd());
 
   Json rows = Json::array(), skipped = Json::array();
   Picture picture;
@@ -113,6 +116,12 @@ void addRenderCommand(CLI::App& app) {
           "--aov", arguments->aovs,
           "Also write, as OpenEXR, any of character,region,face,depth,normal; NAME.ids.json explains them")
       ->type_name("LIST");
+  command
+      .add_option(
+          "--dump-crowd", arguments->crowd_file,
+          "Also write who stands where in what at time 0, as a table that a scene's placement of kind "
+          "file reads back; the name ends in .csv, or is - for standard output (default: none)")
+      ->type_name("FILE");
   command
       .add_option("--frames", arguments->frames,
                   "Which frames, e.g. 0-9,20; frame i is at i/fps seconds; default: all of output.frames")
