@@ -4,6 +4,7 @@
 
 #include "cli/aov_ids.h"
 #include "core/hash.h"
+#include "renderer/scene_names.h"
 #include "renderer/view_setup.h"
 
 namespace ensemble::cli {

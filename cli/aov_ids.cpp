@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/scene_names.h"
+
 namespace ensemble::cli {
 namespace {
 
@@ -32,12 +34,6 @@ Json describeOutfits(const std::string& key, const Wardrobe& wardrobe, std::uint
 
 std::string wardrobeName(const SceneWardrobe& wardrobe) {
   return wardrobe.key.empty() ? wardrobe.folder.string() : wardrobe.key;
-}
-
-std::string outfitName(const Wardrobe& wardrobe, const Combination& items) {
-  std::string name;
-  for (const ItemId item : items) name += (name.empty() ? "" : "+") + wardrobe.items[item].name;
-  return name;
 }
 
 Json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes, const Crowd& crowd) {

@@ -19,8 +19,6 @@ nlohmann::ordered_json aovIds(const Scene& scene, std::span<const Wardrobe> ward
 
 /// How a scene's wardrobe is called in figures: its key, or its folder where there is one only.
 std::string wardrobeName(const SceneWardrobe& wardrobe);
-/// The items of a combination by name, joined by "+"; empty for the bare body.
-std::string outfitName(const Wardrobe& wardrobe, const Combination& items);
 /// Its entry "characters".
 nlohmann::ordered_json describeCharacters(const Scene& scene, std::span<const Wardrobe> wardrobes,
                                           const Crowd& crowd);

@@ -8,6 +8,7 @@
 #include "cli/annotations.h"
 #include "cli/aov_ids.h"
 #include "cli/command.h"
+#include "cli/crowd_dump.h"
 #include "cli/frame_files.h"
 #include "cli/frame_list.h"
 #include "cli/scene_run.h"
@@ -24,7 +25,7 @@ using Json = nlohmann::ordered_json;
 struct RenderArguments {
   CommonOptions common;
   SceneArguments scene;
-  std::string output, aovs, annotations, frames;
+  std::string output, aovs, annotations, crowd_file, frames;
   bool resume = false;
 };
 
@@ -62,6 +63,7 @@ void checkOutput(const RenderArguments& arguments, const Scene& scene, const Fra
 
 void run(const RenderArguments& arguments) {
   const std::vector<Aov> aovs = parseAovs(arguments.aovs);
+  checkCrowdDump(arguments.crowd_file, arguments.common.json_file);
   const Scene scene = loadSceneOf(arguments.scene);
   const std::vector<std::uint32_t> frames = parseFrames(arguments.frames, scene.output.frames);
   const FrameNames names(arguments.output, static_cast<std::uint32_t>(frames.size()));
@@ -76,6 +78,7 @@ void run(const RenderArguments& arguments) {
   std::string ids;
   if (!aovs.empty()) ids = aovIds(scene, wardrobes, renderer.crowd(), renderer.aovNumbers()).dump(2) + "\n";
   FrameFiles files(names, scene.output, {.aovs = aovs, .ids = std::move(ids)});
+  if (!arguments.crowd_file.empty()) dumpCrowd(arguments.crowd_file, scene, wardrobes, renderer.crowd());
   std::optional<AnnotationFile> annotations;
   if (!arguments.annotations.empty()) {
     annotations.emplace(arguments.annotations, annotationHeader(scene, wardrobes, renderer.crowd()),
@@ -137,6 +140,12 @@ void addRenderCommand(CLI::App& app) {
                   "Also write, as one JSON file, each frame's camera matrices and of each person who shows: "
                   "boxes, visible share, joints (docs/pictures.md)")
       ->type_name("FILE.json");
+  command
+      .add_option(
+          "--dump-crowd", arguments->crowd_file,
+          "Also write who stands where in what at time 0, as a table that a scene's placement of kind "
+          "file reads back; the name ends in .csv, or is - for standard output (default: none)")
+      ->type_name("FILE");
   command
       .add_option("--frames", arguments->frames,
                   "Which frames, e.g. 0-9,20; frame i is at i/fps seconds; default: all of output.frames")

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/atomic_file.h"
+#include "core/crowd_table.h"
 #include "core/input_error.h"
 #include "core/nearest_name.h"
 #include "core/yaml_reader.h"
@@ -224,6 +225,12 @@ struct PlacementKeys {
   std::vector<std::string_view> own;  ///< beside `kind`
 };
 
+const PlacementKeys& tableKeys() {
+  static const PlacementKeys keys = {
+      "file", PlacementKind::kTable, {"file", "center", "heading", "heading_spread"}};
+  return keys;
+}
+
 const std::vector<PlacementKeys>& placementKinds() {
   static const std::vector<PlacementKeys> kinds = {
       {"grid", PlacementKind::kGrid, {"spacing", "center", "heading", "heading_spread", "jitter", "columns"}},
@@ -243,6 +250,9 @@ void refuseOthersKeys(const YamlValue& value, const PlacementKeys& chosen) {
       if (std::find(chosen.own.begin(), chosen.own.end(), key) != chosen.own.end()) continue;
       const auto found = value.find(key);
       if (!found) continue;
+      if (chosen.kind == PlacementKind::kTable) {
+        found->fail(fmt::format("{} means nothing for a crowd table", found->path()), "remove it");
+      }
       found->fail(fmt::format("{} means nothing for 'kind: {}'", found->path(), chosen.name),
                   fmt::format("remove it, or give 'kind: {}'", other.name));
     }
@@ -250,7 +260,10 @@ void refuseOthersKeys(const YamlValue& value, const PlacementKeys& chosen) {
 }
 
 void readHeading(const YamlValue& value, ScenePlacement& placement) {
-  if (const auto heading = value.find("heading")) placement.heading = headingRadians(*heading);
+  if (const auto heading = value.find("heading")) {
+    placement.heading = headingRadians(*heading);
+    placement.heading_mark = heading->mark();
+  }
   if (const auto spread = value.find("heading_spread")) {
     placement.heading_spread = radians(spread->numberFloat(kHeadingSpreadRange));
     if (!placement.heading && placement.kind != PlacementKind::kFormation) {
@@ -264,7 +277,11 @@ void readPlacement(const YamlValue& value, const std::filesystem::path& base, Sc
                     "file", "speed", "acceleration", "idle_below", "idle", "smoothing", "fps"});
   const auto kind = value.find("kind");
   const std::size_t index = kind ? kind->word({"grid", "disc", "formation", "paths", "file"}) : 0;
-  const PlacementKeys& keys = placementKinds()[index];
+  const auto file = value.find("file");
+  if (file) placement.file = {base / file->text("a file"), file->mark()};
+  const bool is_table =
+      placementKinds()[index].kind == PlacementKind::kFile && isCrowdTable(placement.file.value);
+  const PlacementKeys& keys = is_table ? tableKeys() : placementKinds()[index];
   placement.kind = keys.kind;
   refuseOthersKeys(value, keys);
   if (const auto spacing = value.find("spacing")) placement.spacing = spacing->numberFloat(kSpacingRange);
@@ -275,15 +292,12 @@ void readPlacement(const YamlValue& value, const std::filesystem::path& base, Sc
     placement.columns = static_cast<std::uint32_t>(columns->wholeNumber(0, kMaxCrowd));
   }
   if (const auto paths = value.find("paths")) readPaths(*paths, placement);
-  if (const auto file = value.find("file")) {
-    placement.file = {base / file->text("a file"), file->mark()};
-  }
   readWalking(value, placement.walking);
   if (placement.kind == PlacementKind::kPaths && placement.paths.empty()) {
     value.fail("the placement has no paths", "add 'paths:' with a list of them");
   }
   if (placement.kind == PlacementKind::kFile && placement.file.value.empty()) {
-    value.fail("the placement has no file", "add 'file: FILE' with trajectories");
+    value.fail("the placement has no file", "add 'file: FILE' with trajectories, or a crowd table (.csv)");
   }
 }
 
@@ -293,14 +307,17 @@ void readCrowd(const YamlValue& value, const std::filesystem::path& base, SceneC
   crowd.count.reset();
   if (const auto count = value.find("count")) {
     crowd.count = static_cast<std::uint32_t>(count->wholeNumber(0, kMaxCrowd));
-  } else if (crowd.placement.kind != PlacementKind::kFile) {
+  } else if (crowd.placement.kind != PlacementKind::kFile && crowd.placement.kind != PlacementKind::kTable) {
     value.fail("the crowd has no count", "add 'count: 1000'");
   }
   if (const auto seed = value.find("seed")) crowd.seed = seed->wholeNumber(0, UINT64_MAX);
   if (const auto wardrobes = value.find("wardrobes")) crowd.wardrobes = readWeights(*wardrobes);
   if (const auto outfits = value.find("outfits")) crowd.outfits = readWeights(*outfits);
   if (const auto clips = value.find("clips")) crowd.clips = readWeights(*clips);
-  if (const auto scale = value.find("scale")) crowd.scale = readSpan(*scale, kScaleRange);
+  if (const auto scale = value.find("scale")) {
+    crowd.scale = readSpan(*scale, kScaleRange);
+    crowd.scale_mark = scale->mark();
+  }
 }
 
 ScenePerson readPerson(const YamlValue& value) {

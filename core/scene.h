@@ -27,7 +27,8 @@ struct SceneOutput {
   Vec3 background_color{0.0f};  ///< sRGB, 0 .. 1
 };
 
-enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation, kPaths, kFile };
+/// kFile: trajectories. kTable: a crowd table (core/crowd_table.h), which a scene calls `file`, too.
+enum class PlacementKind : std::uint8_t { kGrid, kDisc, kFormation, kPaths, kFile, kTable };
 
 /// A stand on a path.
 struct ScenePathStop {
@@ -61,12 +62,13 @@ struct ScenePlacement {
   PlacementKind kind = PlacementKind::kGrid;
   float spacing = 1.2f;  ///< grid, formation: between neighbours; disc: least distance
   Vec3 center{0.0f};
-  std::optional<float> heading;  ///< radians; left out: grid and disc at random, formation 0
+  std::optional<float> heading;  ///< radians; left out: formation 0, else at random
+  SourceMark heading_mark;       ///< where there is a heading
   float heading_spread = 0.0f;   ///< radians: uniform within +- this about heading
   float jitter = 0.0f;           ///< grid, formation: share of the spacing, 0 .. 0.45
   std::uint32_t columns = 0;     ///< formation, grid: people in a rank; 0: as square as possible
   std::vector<ScenePath> paths;
-  Marked<std::filesystem::path> file;  ///< trajectories, resolved against the scene's folder
+  Marked<std::filesystem::path> file;  ///< trajectories or table, resolved against the scene's folder
   SceneWalking walking;
 };
 
@@ -77,7 +79,7 @@ struct WeightedName {
 };
 
 struct SceneCrowd {
-  /// kFile: none means all of the file.
+  /// kFile, kTable: none means all of the file.
   std::optional<std::uint32_t> count = 0;
   std::uint64_t seed = 1;
   std::vector<WeightedName> wardrobes;  ///< by key; empty: all alike
@@ -85,6 +87,7 @@ struct SceneCrowd {
   std::vector<WeightedName> outfits;       ///< bare or KEY/NAME; empty: all of each wardrobe alike
   std::vector<WeightedName> clips;         ///< empty: the first clip of each wardrobe
   std::array<float, 2> scale{1.0f, 1.0f};  ///< uniform between the two
+  SourceMark scale_mark;                   ///< without a key path where the scene has no such key
 };
 
 struct ScenePerson {

@@ -11,6 +11,7 @@
 #include "core/nearest_name.h"
 #include "core/random.h"
 #include "renderer/animation.h"
+#include "renderer/crowd_of_table.h"
 #include "renderer/crowd_streams.h"
 #include "renderer/crowd_walkers.h"
 #include "renderer/placement.h"
@@ -66,6 +67,7 @@ class CrowdBuilder {
       : scene_(scene), wardrobes_(wardrobes), names_(scene, wardrobes), choices_(wardrobes.size()) {}
 
   Crowd build() {
+    if (scene_.crowd.placement.kind == PlacementKind::kTable) table_.emplace(scene_, wardrobes_);
     weighWardrobes();
     weighOutfits();
     weighClips();
@@ -83,7 +85,8 @@ class CrowdBuilder {
     }
     for (std::size_t w = 0; w < weights.size(); ++w) {
       wardrobe_.add(weights[w]);
-      choices_[w].is_used = weights[w] > 0.0f;
+      choices_[w].is_used = table_ && table_->tellsWardrobes() ? table_->uses(static_cast<std::uint32_t>(w))
+                                                               : weights[w] > 0.0f;
     }
     ENSEMBLE_CHECK(wardrobe_.total() > 0.0);  // parseScene refuses weights that are all 0
   }
@@ -181,7 +184,9 @@ class CrowdBuilder {
     for (std::size_t i = 0; i < scene_.people.size(); ++i) {
       const ScenePerson& person = scene_.people[i];
       Character character;
-      character.wardrobe = wardrobeOf(person, i);
+      character.wardrobe = names_.wardrobeOrOnly(
+          {person.wardrobe.value, person.wardrobe.value.empty() ? person.mark : person.wardrobe.mark},
+          fmt::format("people.{}", i), "add 'wardrobe:' with");
       Combination items;
       if (!person.outfit.value.empty()) {
         items.push_back(names_.outfitOf(character.wardrobe, person.outfit.value, person.outfit.mark));
@@ -200,32 +205,21 @@ class CrowdBuilder {
     }
   }
 
-  std::uint32_t wardrobeOf(const ScenePerson& person, std::size_t number) const {
-    if (!person.wardrobe.value.empty()) return names_.wardrobe(person.wardrobe.value, person.wardrobe.mark);
-    if (wardrobes_.size() == 1) return 0;
-    std::vector<std::string> keys;
-    for (const SceneWardrobe& wardrobe : scene_.wardrobes) keys.push_back(wardrobe.key);
-    names_.fail(person.mark, fmt::format("people.{} names none of {} wardrobes", number, keys.size()),
-                "add 'wardrobe:' with " + quotedList(keys));
-  }
-
   void addCrowd() {
     const SceneCrowd& crowd = scene_.crowd;
+    const std::vector<std::uint32_t> first_worn = addAllWorn();
     const std::uint64_t seed = crowd.seed;
     const RandomStream wardrobes(seed, crowd_stream::kWardrobe), outfits(seed, crowd_stream::kOutfit),
         clips(seed, crowd_stream::kClip), phases(seed, crowd_stream::kPhase),
         scales(seed, crowd_stream::kScale), tints(seed, crowd_stream::kTint);
-    std::vector<std::uint32_t> first_worn;  // per wardrobe: its first outfit in worn_
-    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
-      first_worn.push_back(static_cast<std::uint32_t>(worn_.size()));
-      for (const Combination& items : choices_[w].outfits) worn_.push_back({w, items});
-    }
-    const std::vector<Place> places = walks() ? std::vector<Place>() : place();
-    const std::uint32_t count = walks() ? setOut() : *crowd.count;
+    const std::uint32_t count = walks() ? setOut() : table_ ? table_->count() : *crowd.count;
+    const std::vector<Place> places = walks() ? std::vector<Place>() : place(count);
     crowd_.characters.reserve(crowd_.characters.size() + count);
     for (std::uint32_t i = 0; i < count; ++i) {
       Character character;
-      character.wardrobe = static_cast<std::uint32_t>(wardrobe_.choose(wardrobes.uniform(i)));
+      character.wardrobe = table_ && table_->tellsWardrobes()
+                               ? table_->wardrobe(i)
+                               : static_cast<std::uint32_t>(wardrobe_.choose(wardrobes.uniform(i)));
       const WardrobeChoices& choices = choices_[character.wardrobe];
       character.combination = first_worn[character.wardrobe] +
                               static_cast<std::uint32_t>(choices.outfit.choose(outfits.uniform(i)));
@@ -241,14 +235,27 @@ class CrowdBuilder {
         character.position = places[i].position;
         character.heading = places[i].heading;
       }
+      if (table_) table_->tell(i, first_worn.back(), character);
       crowd_.characters.push_back(character);
     }
   }
 
-  std::vector<Place> place() const {
+  /// What the crowd may wear. Per wardrobe: its first outfit in worn_; and last: the table's first.
+  std::vector<std::uint32_t> addAllWorn() {
+    std::vector<std::uint32_t> first_worn;
+    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
+      first_worn.push_back(static_cast<std::uint32_t>(worn_.size()));
+      for (const Combination& items : choices_[w].outfits) worn_.push_back({w, items});
+    }
+    first_worn.push_back(static_cast<std::uint32_t>(worn_.size()));
+    if (table_) worn_.insert(worn_.end(), table_->worn().begin(), table_->worn().end());
+    return first_worn;
+  }
+
+  std::vector<Place> place(std::uint32_t count) const {
     const SceneCrowd& crowd = scene_.crowd;
     try {
-      return placePeople(crowd.placement, *crowd.count, crowd.seed);
+      return placePeople(crowd.placement, count, crowd.seed);
     } catch (const std::length_error&) {
       names_.fail({0, 0, "crowd.placement"},
                   fmt::format("positions are too coarse for a spacing of {} this far from the origin",
@@ -347,6 +354,7 @@ class CrowdBuilder {
   const Scene& scene_;
   std::span<const Wardrobe> wardrobes_;
   SceneNames names_;
+  std::optional<CrowdOfTable> table_;  ///< where the crowd comes from one
   WeightedChoice wardrobe_;
   std::vector<WardrobeChoices> choices_;
   std::vector<WornCombination> worn_;

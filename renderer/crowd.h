@@ -74,7 +74,8 @@ CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_
 /// @throws InputError with line:column for an outfit, clip or wardrobe that does not exist, naming
 /// the nearest; for a bare outfit name that several wardrobes have; for a clip that one lacks; for
 /// a wardrobe of which no outfit is listed; for a spacing that can't be kept so far from the origin;
-/// for a clip without ground speed where people walk; for paths and files that can't be followed.
+/// for a clip without ground speed where people walk; for paths and files that can't be followed; for a
+/// crowd table as CrowdOfTable.
 Crowd populateCrowd(const Scene& scene, std::span<const Wardrobe> wardrobes);
 
 }  // namespace ensemble

@@ -228,6 +228,9 @@ std::vector<Place> placePeople(const ScenePlacement& placement, std::uint32_t co
     case PlacementKind::kFormation:
       placeFormation(placement, seed, places);
       break;
+    case PlacementKind::kTable:
+      for (Place& place : places) place.position = placement.center;
+      break;
     case PlacementKind::kPaths:
     case PlacementKind::kFile:
       ENSEMBLE_CHECK(!"people who walk are placed by crowd_walkers.h");

@@ -21,7 +21,8 @@ struct Place {
 /// grid: rows along X, as square as possible or of `columns`, centred as a whole, the last row
 /// filled from -X. formation: ranks side by side to `heading`, the first in front, the last centred.
 /// disc: blue noise, a maximal Poisson-disc sample of which the `count` places nearest to the
-/// centre are kept, numbered from the centre outwards.
+/// centre are kept, numbered from the centre outwards. table: everybody at the centre, which what the
+/// table says is added to.
 ///
 /// @pre spacing > 0, 0 <= jitter <= 0.45. @throws std::length_error when a disc can't hold `count`
 /// places that far from the origin, because positions are too coarse there.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "core/input_error.h"
@@ -30,14 +31,20 @@ std::vector<std::string> itemNames(const Wardrobe& wardrobe) {
 
 }  // namespace
 
-SceneNames::SceneNames(const Scene& scene, std::span<const Wardrobe> wardrobes)
-    : scene_(scene), wardrobes_(wardrobes) {
+std::string outfitName(const Wardrobe& wardrobe, const Combination& items) {
+  std::string name;
+  for (const ItemId item : items) name += (name.empty() ? "" : "+") + wardrobe.items[item].name;
+  return name;
+}
+
+SceneNames::SceneNames(const Scene& scene, std::span<const Wardrobe> wardrobes, std::filesystem::path file)
+    : scene_(scene), wardrobes_(wardrobes), file_(file.empty() ? scene.file : std::move(file)) {
   ENSEMBLE_CHECK(wardrobes.size() == scene.wardrobes.size());
   ENSEMBLE_CHECK(!wardrobes.empty());
 }
 
 void SceneNames::fail(const SourceMark& mark, const std::string& what, const std::string& mend) const {
-  throw InputError({scene_.file.string(), mark.toString(), what, mend});
+  throw InputError({file_.string(), mark.toString(), what, mend});
 }
 
 std::string SceneNames::describe(std::uint32_t wardrobe) const {
@@ -56,6 +63,16 @@ std::uint32_t SceneNames::wardrobe(const std::string& key, const SourceMark& mar
          "remove the name, or give 'wardrobe: {KEY: FOLDER}'");
   }
   fail(mark, fmt::format("there is no wardrobe {}", quotedName(key)), writeNearest(key, keys, ""));
+}
+
+std::uint32_t SceneNames::wardrobeOrOnly(const Marked<std::string>& key, const std::string& who,
+                                         const char* how) const {
+  if (!key.value.empty()) return wardrobe(key.value, key.mark);
+  if (wardrobes_.size() == 1) return 0;
+  std::vector<std::string> keys;
+  for (const SceneWardrobe& named : scene_.wardrobes) keys.push_back(named.key);
+  fail(key.mark, fmt::format("{} names none of {} wardrobes", who, keys.size()),
+       fmt::format("{} {}", how, quotedList(keys)));
 }
 
 ItemId SceneNames::findItem(std::uint32_t wardrobe, std::string_view name) const {
@@ -129,6 +146,31 @@ ItemId SceneNames::outfitOf(std::uint32_t wardrobe, const std::string& name, con
   const std::vector<std::string> known = itemNames(wardrobes_[wardrobe]);
   fail(mark, fmt::format("{} has no outfit {}", describe(wardrobe), quotedName(bare)),
        writeNearest(bare, known, "add outfits to it"));
+}
+
+Combination SceneNames::combinationOf(std::uint32_t wardrobe, const std::string& name,
+                                      const SourceMark& mark) const {
+  if (name.empty()) return {};
+  if (name.find('+') == std::string::npos || findItem(wardrobe, name).valid()) {
+    return {outfitOf(wardrobe, name, mark)};
+  }
+  const PerItem<Item>& items = wardrobes_[wardrobe].items;
+  Combination combination;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('+', begin), name.size());
+    const ItemId item = outfitOf(wardrobe, name.substr(begin, end - begin), mark);
+    for (const ItemId other : combination) {
+      if (items[other].slot != items[item].slot) continue;
+      fail(mark,
+           fmt::format("{} and {} are both of the slot {}", quotedName(items[other].name),
+                       quotedName(items[item].name), quotedName(items[item].slot)),
+           "write one of them");
+    }
+    combination.push_back(item);
+    begin = end + 1;
+  }
+  std::sort(combination.begin(), combination.end());
+  return combination;
 }
 
 std::uint32_t SceneNames::clipOf(std::uint32_t wardrobe, const std::string& name,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/scene.h"
+#include "core/sub_mesh_lists.h"
 #include "core/wardrobe.h"
 
 namespace ensemble {
@@ -19,17 +21,26 @@ struct FoundOutfit {
   ItemId item;
 };
 
-/// Every lookup throws InputError at the name's place in the scene file, naming the nearest names.
+/// The items of a combination by name, joined by '+'; empty for the bare body.
+std::string outfitName(const Wardrobe& wardrobe, const Combination& items);
+
+/// Every lookup throws InputError at the name's place in its file, naming the nearest names.
 class SceneNames {
  public:
-  /// Both must outlive this. @pre one wardrobe for each of scene.wardrobes
-  SceneNames(const Scene& scene, std::span<const Wardrobe> wardrobes);
+  /// Scene and wardrobes must outlive this. @param file where the names stand; empty: the scene's file
+  /// @pre one wardrobe for each of scene.wardrobes
+  SceneNames(const Scene& scene, std::span<const Wardrobe> wardrobes, std::filesystem::path file = {});
 
   std::uint32_t wardrobe(const std::string& key, const SourceMark& mark) const;
+  /// The only one, where the key is empty; where there are several, the message says that `who` names none
+  /// of them, and to mend it, `how` with their keys.
+  std::uint32_t wardrobeOrOnly(const Marked<std::string>& key, const std::string& who, const char* how) const;
   /// A bare name that one wardrobe has, or KEY/NAME.
   FoundOutfit outfit(const std::string& name, const SourceMark& mark) const;
   /// A bare name, or KEY/NAME of that wardrobe.
   ItemId outfitOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const;
+  /// As outfitName writes it: an item's name, or several joined by '+', of different slots.
+  Combination combinationOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const;
   std::uint32_t clipOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const;
 
   /// For messages: "the wardrobe 'women'", or its folder where it has no key.
@@ -46,6 +57,7 @@ class SceneNames {
 
   const Scene& scene_;
   std::span<const Wardrobe> wardrobes_;
+  std::filesystem::path file_;
 };
 
 }  // namespace ensemble

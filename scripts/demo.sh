@@ -50,9 +50,10 @@ writeScene() {
     !inside' "$project/config/scenes/demo.yaml" >"$out/scene.yaml"
 }
 
-# report KEY: the table, on standard output and beside its JSON in out/reports/.
+# report KEY: the table, on standard output and beside its JSON and its page in out/reports/.
 report() {
-  "$ensemble" report "$out/wardrobes/$1" --json "$out/reports/$1.json" | tee "$out/reports/$1.txt"
+  "$ensemble" report "$out/wardrobes/$1" --json "$out/reports/$1.json" --html "$out/reports/$1.html" \
+    --extrapolate 20 | tee "$out/reports/$1.txt"
 }
 
 case "${1:-}" in
@@ -95,5 +96,5 @@ done
 say "Done in $(duration $((SECONDS - start)))."
 echo "Picture: $out/crowd.png"
 for key in "${keys[@]}"; do
-  echo "Report:  $out/reports/$key.txt (figures: $key.json)"
+  echo "Report:  $out/reports/$key.txt (page: $key.html, figures: $key.json)"
 done

@@ -16,13 +16,46 @@ TEST(SceneErrors, PlacementsRefuseEachOthersKeys) {
     return errorAfterHead("crowd: {count: 1, placement: {" + keys + "}}\n");
   };
   EXPECT_EQ(placement("kind: paths"), "3:30: the placement has no paths; add 'paths:' with a list of them");
-  EXPECT_EQ(placement("kind: file"), "3:30: the placement has no file; add 'file: FILE' with trajectories");
+  EXPECT_EQ(placement("kind: file"),
+            "3:30: the placement has no file; add 'file: FILE' with trajectories, or a crowd "
+            "table (.csv)");
   EXPECT_EQ(placement("file: a.txt"),
             "3:37: crowd.placement.file means nothing for 'kind: grid'; remove it, or give 'kind: file'");
   EXPECT_EQ(placement("kind: paths, columns: 3"),
             "3:53: crowd.placement.columns means nothing for 'kind: paths'; remove it, or give 'kind: grid'");
   EXPECT_EQ(placement("kind: file, file: a.txt, speed: 1"),
             "3:63: crowd.placement.speed means nothing for 'kind: file'; remove it, or give 'kind: paths'");
+  EXPECT_EQ(placement("kind: file, file: a.txt, heading: 1"),
+            "3:65: crowd.placement.heading means nothing for 'kind: file'; remove it, or give 'kind: grid'");
+}
+
+TEST(SceneErrors, ACrowdTableTakesFewKeys) {
+  for (const std::string key : {"spacing: 1", "jitter: 0", "columns: 2", "speed: 1", "acceleration: 1",
+                                "idle_below: 1", "idle: a", "smoothing: 1", "fps: 9"}) {
+    const std::string name = key.substr(0, key.find(':'));
+    EXPECT_EQ(errorAfterHead("crowd: {placement: {kind: file, file: a.csv, " + key + "}}\n"),
+              "3:" + std::to_string(46 + name.size() + 2) + ": crowd.placement." + name +
+                  " means nothing for a crowd table; remove it");
+  }
+  EXPECT_EQ(errorAfterHead("crowd: {placement: {kind: file, file: a.csv, heading_spread: 9}}\n"),
+            "3:62: heading_spread without heading, where headings are random; add a heading");
+}
+
+TEST(Scene, AFileNamedCsvIsACrowdTable) {
+  const Scene scene = parseScene(
+      kHead +
+          "crowd: {placement: {kind: file, file: t/a.CSV, center: [1, 2, 3], heading: 90, heading_spread: "
+          "5}, scale: 2}\n",
+      "a/scene.yaml");
+  const ScenePlacement& placement = scene.crowd.placement;
+  EXPECT_EQ(placement.kind, PlacementKind::kTable);
+  EXPECT_EQ(placement.file.value, "a/t/a.CSV");
+  EXPECT_FALSE(scene.crowd.count);
+  EXPECT_EQ(placement.center, Vec3(1, 2, 3));
+  EXPECT_EQ(placement.heading, radians(90.0f));
+  EXPECT_EQ(placement.heading_mark.key_path, "crowd.placement.heading");
+  EXPECT_EQ(scene.crowd.scale_mark.key_path, "crowd.scale");
+  EXPECT_EQ(parseScene(kHead + "crowd: {count: 1}\n", "a.yaml").crowd.scale_mark.key_path, "");
 }
 
 TEST(SceneErrors, PathsAreCheckedPointByPoint) {

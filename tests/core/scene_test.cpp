@@ -428,7 +428,7 @@ TEST(ReferenceScene, ItsAlternativesAreScenesToo) {
           << line;
     }
   }
-  EXPECT_EQ(count, 6);
+  EXPECT_EQ(count, 7);
 }
 
 }  // namespace

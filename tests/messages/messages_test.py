@@ -174,6 +174,24 @@ OUTPUTS = [  # also for root, who passes by permissions
      "/dev/full: can't be written: No space left on device; free some space and run it again"),
 ]
 
+# Crowd tables: what is in the file -> what is said after its name. Every field is in core/crowd_table_test.cpp.
+TABLES = {
+    "": "the crowd table is empty; begin with a row of column names: x,z",
+    "x;z\n1;2\n": "1:1: fields are parted by ';' here; part them by commas, and write 0.5, not 0,5",
+    "0,0\n": "1:1: the table begins with a number; begin with a row of column names: x,z",
+    "x,z,cloth\n": "1:5: unknown column 'cloth'; write 'clip' (known: number, wardrobe, outfit, clip, phase, speed, x, "
+                   "y, z, heading, scale, tint)",
+    "x,y\n0,0\n": "1:1: there is no column 'z'; add it: x and z are where people stand, in metres",
+    "x,z\n0,nan\n": "2:3: z is 'nan'; give a number from -10000000000 to 10000000000 (metres)",
+    "x,z\n0\n": "2:1: the row has 1 fields, the first row names 2 columns; write a field for each column; it may be "
+                "empty",
+    "x,z,clip\n0,0,\"sway\n": "2:5: the field's quotes are not closed; add the closing quote",
+    "x,z,outfit\n0,0,tunik\n": "2:5: the wardrobe 'w' has no outfit 'tunik'; write 'tunic'",
+    "x,z,clip\n0,0,\n0,0,walk\n": "3:5: the wardrobe 'w' has no clip 'walk'; write 'sway'",
+    "x,z,wardrobe\n0,0,w\n": "2:5: there is no wardrobe 'w': the scene's only one has no key; remove the name, or give "
+                             "'wardrobe: {KEY: FOLDER}'",
+}
+
 RENDERING = [
     ("render clips.yaml -o a.png", 3, "clips.yaml: 4:33: the wardrobe 'walking' has no clip 'sway'; write 'walk'"),
     ("render scene.yaml -o a.png --set environment=empty.glb", 3,
@@ -183,11 +201,16 @@ RENDERING = [
      "far_set.glb: /nodes/0: a vertex of the node is more than 1000000 metres from the origin; scale the set to "
      "metres and export it again"),
     ("render nowhere.yaml -o a.png", 3, "nowhere.yaml: no such file; check the path"),
+    ("render table.yaml -o a.png --set crowd.placement.file=none.csv", 3, "none.csv: no such file; check the path"),
+    ("render scene.yaml -o a.png --dump-crowd a.txt", 2,
+     "--dump-crowd a.txt: a crowd table's name ends in .csv: a scene knows it by that; write --dump-crowd crowd.csv"),
     ("render scene.yaml -o a.bmp", 2, "-o a.bmp: pictures can't be written as '.bmp'; write .png, .exr or .mp4: name.png, "
                                       "name_%04d.exr, name.mp4, or a folder dir/"),
 ]
 DRAWING = [("render scene.yaml -o /proc/a.png", 1,
-            "/proc/a.png: can't be written: No such file or directory; make its folder first")]
+            "/proc/a.png: can't be written: No such file or directory; make its folder first"),
+           ("render scene.yaml -o a.png --dump-crowd file/a.csv", 1,
+            "file/a.csv: can't be written: Not a directory; choose another place")]
 
 
 def snapshot(folder):
@@ -222,6 +245,7 @@ class Table:
         (self.folder / "clips.yaml").write_text(
             "version: 1\nwardrobe: {swaying: w, walking: w_walk}\noutput: {width: 64, height: 64}\n"
             "crowd: {count: 2, clips: {sway: 1}}\n")
+        (self.folder / "table.yaml").write_text("version: 1\nwardrobe: w\ncrowd: {placement: {kind: file}}\n")
 
     def check(self, arguments, code, message, environment=None, writes=False):
         for name, value in self.names.items():
@@ -263,6 +287,10 @@ def check_all(table):
         name = f"scene{len(table.failures) + table.passed}.yaml"
         (table.folder / name).write_text(bad_files.SCENE + lines + "\n")
         table.check(f"render {name} -o a.png", 3, f"{name}: {message}")
+    for number, (text, message) in enumerate(TABLES.items()):
+        (table.folder / f"table{number}.csv").write_text(text)
+        table.check(f"render table.yaml -o a.png --set crowd.placement.file=table{number}.csv", 3,
+                    f"table{number}.csv: {message}")
     for command in ("render scene.yaml -o a.png", "bench scene.yaml"):
         for nothing in ("/nowhere", ""):
             table.check(command, 1, NO_DRIVER, {"VK_ICD_FILENAMES": nothing, "VK_DRIVER_FILES": nothing})
