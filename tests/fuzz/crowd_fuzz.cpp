@@ -18,9 +18,9 @@ bool isSound(const CrowdTable& table, const CrowdTableRow& row) {
     if (!(std::abs(row.position[k]) <= 1e10f)) return false;
   }
   const std::size_t names = table.names.size();
-  return row.wardrobe.name < names && row.outfit.name < names && row.clip.name < names && row.number >= 1 &&
-         row.phase >= 0.0f && row.phase <= 1.0f && row.speed >= 0.0f && row.speed <= 100.0f &&
-         row.scale >= 0.0099f && row.scale <= 100.0f && std::abs(row.heading) <= 63.0f;
+  return row.wardrobe.name < names && row.outfit.name < names && row.clip.name < names && row.phase >= 0.0f &&
+         row.phase <= 1.0f && row.speed >= 0.0f && row.speed <= 100.0f && row.scale >= 0.0099f &&
+         row.scale <= 100.0f && std::abs(row.heading) <= 63.0f;
 }
 
 bool areSame(const CrowdTable& a, const CrowdTable& b) {

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Writes corpus/glb/*.glb: small files that together use every kind of thing the reader knows.
 
+What libFuzzer found stays beside them as refused_NAME.
+
 Usage: make_corpus.py, then draco_encode.cjs (tests/proofs) of skinned.glb gives draco.glb.
 """
 import json
