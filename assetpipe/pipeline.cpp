@@ -105,13 +105,18 @@ std::vector<OutfitFile> readOutfits(const std::vector<fs::path>& files, const Ta
                                     const PipelineOptions& options) {
   std::vector<OutfitFile> outfits(files.size());
   std::vector<std::exception_ptr> errors(files.size());
+  const unsigned cores = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  // What threads the outfits leave idle look for hidden faces.
+  PipelineOptions options_of_one = options;
+  options_of_one.tag.hidden.jobs =
+      std::max(1u, cores / static_cast<unsigned>(std::clamp<std::size_t>(files.size(), 1, cores)));
   std::atomic<std::size_t> next{0};
   std::mutex progress_mutex;
   Progress progress("tagging", files.size());
   const auto work = [&] {
     for (std::size_t i = next++; i < files.size(); i = next++) {
       try {
-        outfits[i] = readOutfit(files[i], body, options);
+        outfits[i] = readOutfit(files[i], body, options_of_one);
       } catch (...) {
         errors[i] = std::current_exception();
       }
@@ -119,7 +124,6 @@ std::vector<OutfitFile> readOutfits(const std::vector<fs::path>& files, const Ta
       progress.advance();
     }
   };
-  const unsigned cores = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   {
     std::vector<std::jthread> threads;
     for (unsigned t = 1; t < std::min<std::size_t>(cores, files.size()); ++t) threads.emplace_back(work);

@@ -64,6 +64,7 @@ class OutfitTagger {
       for (RawPrimitive& part : garment.parts) part = withTemplateJoints(std::move(part));
     }
     if (matches_.unmatched > 0) keepUnmatchedFaces();
+    if (options_.occlusion != Occlusion::kAuthored) findHiddenFaces();
     item_.tags = tagRegions(body_, item_.visible, item_.extra_body);
     warnIfComplete();
     return std::move(item_);
@@ -318,14 +319,25 @@ class OutfitTagger {
     return nearest;
   }
 
+  void findHiddenFaces() {
+    const Item* worn = &item_;
+    const FaceSightings found = findSightings(body_, std::span(&worn, 1), options_.hidden);
+    for (std::size_t f = 0; f < body_.faces.size(); ++f) {
+      const bool is_seen = found.first_pose[FaceId(f)] != FaceSightings::kNever;
+      std::uint8_t& visible = item_.visible[FaceId(f)];
+      visible = is_seen && (options_.occlusion == Occlusion::kAuto || visible != 0) ? 1 : 0;
+    }
+  }
+
   void warnIfComplete() const {
     const bool complete =
         std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
     if (!complete) return;
     warnings_.push_back(
-        "its body is complete, so nothing is hidden under the clothes; remove the faces that they hide "
-        "before "
-        "exporting (finding them with --auto-occlusion is not in this version)");
+        options_.occlusion == Occlusion::kAuthored
+            ? "its body is complete, so nothing is hidden under the clothes; remove the faces that "
+              "they hide before exporting, or let --auto-occlusion find them"
+            : "its clothes hide no face of the body");
   }
 
   const RawAsset& outfit_;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "assetpipe/hidden_faces.h"
 #include "core/raw_asset.h"
 #include "core/wardrobe.h"
 
@@ -12,9 +13,18 @@ namespace ensemble {
 inline constexpr float kDefaultTolerance = 0.0002f;  ///< metres
 inline constexpr double kMaxUnmatchedShare = 0.02;   ///< of the embedded body's faces (design 3)
 
+/// Where the faces come from that clothes hide.
+enum class Occlusion : std::uint8_t {
+  kAuthored,  ///< the outfit's author has removed them from its body
+  kAuto,      ///< found by rays (hidden_faces.h); what the author removed does not matter
+  kBoth,      ///< those of the author and those found
+};
+
 struct TagOptions {
   float tolerance = kDefaultTolerance;  ///< metres: how far a corner may be from the template's
   std::string body_node;  ///< take this node alone as the body; empty: whatever has a region's material
+  Occlusion occlusion = Occlusion::kAuthored;
+  HiddenFaceOptions hidden;  ///< for kAuto and kBoth
 };
 
 /// Turns an outfit as an artist exported it into an item: tells body from garments, brings joints

@@ -27,8 +27,8 @@ struct TagArguments {
 void addTaggingOptions(CLI::App& command, TagArguments& arguments) {
   command
       .add_option("--occlusion", arguments.occlusion,
-                  "Which faces are hidden: authored (those that the outfit's author removed), auto or both; "
-                  "this version has authored only (default authored)")
+                  "Which faces are hidden: authored (those that the outfit's author removed), auto (found by "
+                  "rays, over all clips; what the author removed does not matter) or both (default authored)")
       ->check(CLI::IsMember({"authored", "auto", "both"}))
       ->type_name("KIND");
   command.add_flag("--auto-occlusion", arguments.auto_occlusion, "The same as --occlusion auto");
@@ -49,11 +49,12 @@ void addTaggingOptions(CLI::App& command, TagArguments& arguments) {
 }
 
 PipelineOptions pipelineOptions(const TagArguments& arguments) {
-  if (arguments.auto_occlusion || arguments.occlusion != "authored") {
-    throw UsageError({"", "--occlusion", "finding hidden faces is not in this version",
-                      "remove the faces that clothes hide before exporting, and use --occlusion authored"});
-  }
   PipelineOptions options;
+  if (arguments.occlusion == "both") {
+    options.tag.occlusion = Occlusion::kBoth;
+  } else if (arguments.auto_occlusion || arguments.occlusion == "auto") {
+    options.tag.occlusion = Occlusion::kAuto;
+  }
   if (arguments.regions == "joints") {
     options.segment.by = SegmentBy::kJoints;
   } else if (arguments.regions != "material") {

@@ -68,12 +68,32 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
     EXPECT_EQ(result.out, "");
     EXPECT_THAT(result.err, ::testing::MatchesRegex("ensemble: [^\n]+\n")) << arguments;
   }
-  const ProgramResult automatic = run("tag template.glb tunic.glb -o w --auto-occlusion");
-  EXPECT_EQ(automatic.exit_code, 2);
-  EXPECT_EQ(automatic.err,
-            "ensemble: --occlusion: finding hidden faces is not in this version; remove the faces that "
-            "clothes hide "
-            "before exporting, and use --occlusion authored\n");
+}
+
+TEST_F(CommandLine, HiddenFacesAreAuthoredFoundOrBoth) {
+  // The author removed the head and every second face of the torso; a tight tunic hides a belt of the torso.
+  writeFileAtomically(
+      folder_ / "tunic.glb",
+      writeGlb(testing::tubeOutfit(
+          [](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); }, 0.203f)));
+  const auto visibleFaces = [&](const std::string& option) {
+    const ProgramResult result = run("tag template.glb tunic.glb -o w -q --json - " + option);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json manifest = nlohmann::json::parse(result.out);
+    std::vector<int> counts;
+    for (const auto& region : manifest["outfits"][0]["regions"]) counts.push_back(region["visible_faces"]);
+    return counts;
+  };
+  EXPECT_EQ(visibleFaces("--occlusion authored"), (std::vector<int>{64, 32, 0}));
+  const std::vector<int> found = visibleFaces("--auto-occlusion");
+  EXPECT_EQ(found[0], 64);
+  EXPECT_LT(found[1], 64);
+  EXPECT_EQ(found[2], 64) << "what the author removed does not matter";
+  EXPECT_EQ(visibleFaces("--occlusion auto"), found);
+  const std::vector<int> both = visibleFaces("--occlusion both");
+  EXPECT_LT(both[1], found[1]);
+  EXPECT_LT(both[1], 32);
+  EXPECT_EQ(both[2], 0);
 }
 
 TEST_F(CommandLine, InvalidInputIsThree) {
