@@ -18,20 +18,9 @@ constexpr double kGolden = 0.61803398874989485, kPlastic = 0.75487766624669276,
 
 double fraction(double x) { return x - std::floor(x); }
 
-/// Interpolated as matrices, as the renderer does (design 9).
 std::vector<Mat4> matricesAt(const TemplateBody& body, const ViewedPose& pose) {
   if (body.clips.empty()) return skinningMatrices(body.skeleton, restPose(body.skeleton));
-  const Clip& clip = body.clips[pose.clip];
-  const auto key = std::min(static_cast<std::uint32_t>(pose.key), clip.key_count - 1);
-  const float part = pose.key - static_cast<float>(key);
-  std::vector<Mat4> matrices = skinningMatrices(body.skeleton, clip.key(key));
-  if (part <= 0.0f) return matrices;
-  const std::vector<Mat4> next =
-      skinningMatrices(body.skeleton, clip.key(std::min(key + 1, clip.key_count - 1)));
-  for (std::size_t j = 0; j < matrices.size(); ++j) {
-    matrices[j] = matrices[j] * (1.0f - part) + next[j] * part;
-  }
-  return matrices;
+  return skinningMatricesAt(body.skeleton, body.clips[pose.clip], pose.key);
 }
 
 std::vector<ViewedPose> choosePoses(const TemplateBody& body, std::uint32_t most) {

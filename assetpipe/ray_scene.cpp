@@ -51,14 +51,10 @@ void filterDoubleSided(const RTCFilterFunctionNArguments* arguments) {
   if (context.is_inward && !(facing(*arguments) < 0.0f)) arguments->valid[0] = 0;
 }
 
-Vec3 posed(const RawVertex& vertex, std::span<const Mat4> matrices) {
-  return vertex.skin.weights[0] == 0.0f ? vertex.position : skinPosition(vertex, matrices);
-}
-
 std::vector<Vec3> posed(std::span<const RawVertex> vertices, std::span<const Mat4> matrices) {
   std::vector<Vec3> positions;
   positions.reserve(vertices.size());
-  for (const RawVertex& vertex : vertices) positions.push_back(posed(vertex, matrices));
+  for (const RawVertex& vertex : vertices) positions.push_back(skinPosition(vertex, matrices));
   return positions;
 }
 

@@ -53,6 +53,12 @@ Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stat
           {"environment", toJson(stats.environment)}};
 }
 
+void checkAnnotations(const std::string& file) {
+  if (file != "-") return;
+  throw UsageError({"", "--annotations -", "annotations go to a file, which --resume goes on with",
+                    "write --annotations people.json"});
+}
+
 void checkOutput(const RenderArguments& arguments, const Scene& scene, const FrameNames& names) {
   if (names.format() != PictureFormat::kVideo) return;
   checkVideo(arguments.output, scene.output);
@@ -64,6 +70,7 @@ void checkOutput(const RenderArguments& arguments, const Scene& scene, const Fra
 void run(const RenderArguments& arguments) {
   const std::vector<Aov> aovs = parseAovs(arguments.aovs);
   checkCrowdDump(arguments.crowd_file, arguments.common.json_file);
+  checkAnnotations(arguments.annotations);
   const Scene scene = loadSceneOf(arguments.scene);
   const std::vector<std::uint32_t> frames = parseFrames(arguments.frames, scene.output.frames);
   const FrameNames names(arguments.output, static_cast<std::uint32_t>(frames.size()));

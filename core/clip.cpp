@@ -231,6 +231,22 @@ std::vector<Mat4> skinningMatrices(const RawSkeleton& skeleton, std::span<const 
   return matrices;
 }
 
+std::vector<Mat4> skinningMatricesAt(const RawSkeleton& skeleton, const Clip& clip, float key) {
+  const std::uint32_t last = clip.key_count - 1;
+  const std::uint32_t first = std::min(static_cast<std::uint32_t>(key), last);
+  std::vector<Mat4> matrices = skinningMatrices(skeleton, clip.key(first));
+  const float part = key - static_cast<float>(first);
+  if (first < last && part > 0.0f) {
+    mixMatrices(matrices, skinningMatrices(skeleton, clip.key(first + 1)), part);
+  }
+  return matrices;
+}
+
+void mixMatrices(std::span<Mat4> a, std::span<const Mat4> b, float part) {
+  ENSEMBLE_CHECK(a.size() == b.size());
+  for (std::size_t j = 0; j < a.size(); ++j) a[j] = a[j] * (1.0f - part) + b[j] * part;
+}
+
 std::vector<Transform> restPose(const RawSkeleton& skeleton) {
   std::vector<Transform> rest;
   rest.reserve(skeleton.bones.size());

@@ -45,10 +45,18 @@ void globalPose(const RawSkeleton& skeleton, std::span<const Transform> local,
 /// pose folded in (Lister equation 1).
 std::vector<Mat4> skinningMatrices(const RawSkeleton& skeleton, std::span<const Transform> local);
 
+/// Skinning matrices between key frames, interpolated as matrices (design 9): those of the renderer.
+/// @param key from 0 on; what lies beyond the last key is the last key
+std::vector<Mat4> skinningMatricesAt(const RawSkeleton& skeleton, const Clip& clip, float key);
+
+/// a * (1 - part) + b * part of each of two poses. @pre as many in both
+void mixMatrices(std::span<Mat4> a, std::span<const Mat4> b, float part);
+
 /// The local transforms at rest, #bones.
 std::vector<Transform> restPose(const RawSkeleton& skeleton);
 
-/// A vertex's position under skinning matrices, for tools and tests (the renderer does it on the GPU).
+/// A vertex's position under skinning matrices; where no joint moves it, its own. For tools and tests (the
+/// renderer does it on the GPU).
 Vec3 skinPosition(const RawVertex& vertex, std::span<const Mat4> skinning_matrices);
 
 }  // namespace ensemble

@@ -2,7 +2,7 @@
 // `placement: {kind: file}` reads one.
 //
 //   number,wardrobe,outfit,clip,phase,speed,x,y,z,heading,scale,tint
-//   1,women,casual01,walk,0.25,1,-2.5,0,0.75,90,1.02,12345
+//   0,women,casual01,walk,0.25,1,-2.5,0,0.75,90,1.02,12345
 //
 // The first row names the columns, in any order; only x and z must be there. One person a row. A field
 // that is empty means what a key left out means for a scene's `people`.

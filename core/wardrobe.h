@@ -82,6 +82,19 @@ struct Item {
   std::uint32_t dedicatedFaceCount() const;    ///< visible faces of partial regions
 };
 
+/// Calls take(vertex) for the vertices of an item: its garments' and those of its own body parts.
+template <class Take>
+void forEachVertex(const Item& item, const Take& take) {
+  for (const Garment& garment : item.garments) {
+    for (const ItemPart& part : garment.parts) {
+      for (const RawVertex& vertex : part.vertices) take(vertex);
+    }
+  }
+  for (const ExtraBodyPart& extra : item.extra_body) {
+    for (const RawVertex& vertex : extra.part.vertices) take(vertex);
+  }
+}
+
 struct Wardrobe {
   std::filesystem::path folder;
   std::string template_file;                   ///< relative to folder

@@ -4,25 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 
+#include "core/box.h"
 #include "core/clip.h"
 #include "core/gait.h"
 
 namespace ensemble {
 namespace {
-
-struct Box {
-  Vec3 low{std::numeric_limits<float>::max()};
-  Vec3 high{std::numeric_limits<float>::lowest()};
-
-  bool empty() const { return low.x > high.x; }
-  void add(Vec3 point) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-};
 
 /// Boxes of the vertices that each joint moves, at rest; the last of those that none moves.
 std::vector<Box> jointBoxes(const Wardrobe& wardrobe) {
@@ -36,16 +25,8 @@ std::vector<Box> jointBoxes(const Wardrobe& wardrobe) {
     }
     if (!moved) boxes.back().add(vertex.position);
   };
-  for (const RawVertex& vertex : wardrobe.body.vertices) add(vertex);
-  for (const Item& item : wardrobe.items) {
-    for (const Garment& garment : item.garments) {
-      for (const ItemPart& part : garment.parts)
-        std::for_each(part.vertices.begin(), part.vertices.end(), add);
-    }
-    for (const ExtraBodyPart& extra : item.extra_body) {
-      std::for_each(extra.part.vertices.begin(), extra.part.vertices.end(), add);
-    }
-  }
+  std::for_each(wardrobe.body.vertices.begin(), wardrobe.body.vertices.end(), add);
+  for (const Item& item : wardrobe.items) forEachVertex(item, add);
   return boxes;
 }
 
@@ -53,16 +34,12 @@ std::vector<Box> jointBoxes(const Wardrobe& wardrobe) {
 /// two keys, so that the union of all moved boxes holds it.
 void addMoved(Box& bounds, const Box& box, const Mat4& matrix) {
   if (box.empty()) return;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 point((corner & 1) ? box.high.x : box.low.x, (corner & 2) ? box.high.y : box.low.y,
-                     (corner & 4) ? box.high.z : box.low.z);
-    bounds.add(Vec3(matrix * Vec4(point, 1.0f)));
-  }
+  for (unsigned i = 0; i < 8; ++i) bounds.add(Vec3(matrix * Vec4(box.corner(i), 1.0f)));
 }
 
 Sphere sphereAround(const Box& box) {
   if (box.empty()) return {};
-  return {0.5f * (box.low + box.high), 0.5f * glm::length(box.high - box.low)};
+  return {box.center(), 0.5f * glm::length(box.extent())};
 }
 
 void addMatrix(std::vector<vec4>& texels, const Mat4& m) {

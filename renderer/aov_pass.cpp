@@ -20,7 +20,7 @@ AovPass::AovPass(const gpu::Device& device, const CrowdLayout& layout, const Cro
     return makePipeline(device, layout.pipelineLayout(), options);
   };
   for (const DrawItem& item : assets.items()) {
-    makeIfMissing(people_, variantFor(item.state),
+    makeIfMissing(people_, shapeVariant(item.state),
                   [&](ShaderVariant variant) { return make(kCrowdVert, kAovFrag, {.variant = variant}); });
   }
   ground_ = make(kGroundVert, kGroundAovFrag, {.draws_people = false});
@@ -44,18 +44,7 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
                                             .loadOp = vk::AttachmentLoadOp::eClear,
                                             .storeOp = vk::AttachmentStoreOp::eStore};
   }
-  constexpr auto depth_stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-  gpu::recordBarrier(commands, targets.aov_depth,
-                     {.from_stage = depth_stages,
-                      .to_stage = depth_stages,
-                      .from_access = Access::eDepthStencilAttachmentWrite,
-                      .to_access = Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
-                      .to = Layout::eDepthAttachmentOptimal});
-  const vk::RenderingAttachmentInfo depth{.imageView = targets.aov_depth.view(),
-                                          .imageLayout = Layout::eDepthAttachmentOptimal,
-                                          .loadOp = vk::AttachmentLoadOp::eClear,
-                                          .storeOp = vk::AttachmentStoreOp::eDontCare,
-                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
+  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.aov_depth);
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = colors.size(),
@@ -80,7 +69,7 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
 void AovPass::recordDraws(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
                           const View& view) const {
   recordCrowd(commands, draw, nullptr, 0, [&](const DrawState& state) -> const vk::raii::Pipeline& {
-    return people_[variantIndex(variantFor(state))];
+    return people_[variantIndex(shapeVariant(state))];
   });
   if (draw.environment.pass) draw.environment.pass->recordAovs(commands, draw);
   if (!view.drawsGround()) return;

@@ -15,9 +15,6 @@ class AovPass {
               const View& view) const;
 
  private:
-  static ShaderVariant variantFor(const DrawState& state) {
-    return {.textured = state.textured && state.cut_out, .cut_out = state.cut_out, .hides_faces = false};
-  }
   void recordDraws(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const View& view) const;
 
   const CrowdLayout& layout_;

@@ -52,13 +52,6 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
   const bool multisampled = static_cast<bool>(targets.samples);
   gpu::recordBarrier(commands, targets.linear, to_color);
   if (multisampled) gpu::recordBarrier(commands, targets.samples, to_color);
-  constexpr auto depth_stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-  gpu::recordBarrier(commands, targets.depth,
-                     {.from_stage = depth_stages,
-                      .to_stage = depth_stages,
-                      .from_access = Access::eDepthStencilAttachmentWrite,
-                      .to_access = Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
-                      .to = Layout::eDepthAttachmentOptimal});
   vk::RenderingAttachmentInfo color{
       .imageView = multisampled ? targets.samples.view() : targets.linear.view(),
       .imageLayout = Layout::eColorAttachmentOptimal,
@@ -69,11 +62,7 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
     color.resolveImageView = targets.linear.view();
     color.resolveImageLayout = Layout::eColorAttachmentOptimal;
   }
-  const vk::RenderingAttachmentInfo depth{.imageView = targets.depth.view(),
-                                          .imageLayout = Layout::eDepthAttachmentOptimal,
-                                          .loadOp = vk::AttachmentLoadOp::eClear,
-                                          .storeOp = vk::AttachmentStoreOp::eDontCare,
-                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
+  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.depth);
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = 1,

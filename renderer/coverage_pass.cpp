@@ -19,7 +19,7 @@ CoveragePass::CoveragePass(const gpu::Device& device, const CrowdLayout& layout,
   const vk::raii::ShaderModule vertex = gpu::makeShader(device, kCrowdVert);
   const vk::raii::ShaderModule fragment = gpu::makeShader(device, kCoverageFrag);
   for (const DrawItem& item : assets.items()) {
-    makeIfMissing(pipelines_, variantFor(item.state), [&](ShaderVariant variant) {
+    makeIfMissing(pipelines_, shapeVariant(item.state), [&](ShaderVariant variant) {
       return makePipeline(device, layout.pipelineLayout(),
                           {.vertex_shader = *vertex, .fragment_shader = *fragment, .variant = variant});
     });
@@ -61,20 +61,7 @@ void CoveragePass::plan(const QueueBuffers& queues) {
 
 void CoveragePass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
                           const ViewTargets& targets, const View& view, std::size_t group) const {
-  using Access = vk::AccessFlagBits2;
-  constexpr auto depth_stages =
-      vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests;
-  gpu::recordBarrier(commands, targets.aov_depth,
-                     {.from_stage = depth_stages,
-                      .to_stage = depth_stages,
-                      .from_access = Access::eDepthStencilAttachmentWrite,
-                      .to_access = Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
-                      .to = vk::ImageLayout::eDepthAttachmentOptimal});
-  const vk::RenderingAttachmentInfo depth{.imageView = targets.aov_depth.view(),
-                                          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-                                          .loadOp = vk::AttachmentLoadOp::eClear,
-                                          .storeOp = vk::AttachmentStoreOp::eDontCare,
-                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
+  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.aov_depth);
   commands.resetQueryPool(*queries_, 0, kGroup);
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
@@ -92,7 +79,7 @@ void CoveragePass::record(const vk::raii::CommandBuffer& commands, const CrowdDr
     const QueueBuffers::Chunk& chunk = draw.queues->chunks()[person.chunk];
     if (!bound) {  // A query may begin only with a pipeline bound (VertexCounter).
       const DrawState& state = chunk.batches[draws_[person.first_draw].batch].state;
-      bound = *pipelines_[variantIndex(variantFor(state))];
+      bound = *pipelines_[variantIndex(shapeVariant(state))];
       commands.bindPipeline(vk::PipelineBindPoint::eGraphics, bound);
     }
     commands.beginQuery(*queries_, static_cast<std::uint32_t>(i - first), vk::QueryControlFlagBits::ePrecise);
@@ -109,7 +96,7 @@ void CoveragePass::recordPerson(const vk::raii::CommandBuffer& commands, const C
   for (std::size_t i = person.first_draw; i < person.first_draw + person.draw_count; ++i) {
     const PersonDraw& own = draws_[i];
     const DrawState& state = chunk.batches[own.batch].state;
-    const vk::Pipeline pipeline = *pipelines_[variantIndex(variantFor(state))];
+    const vk::Pipeline pipeline = *pipelines_[variantIndex(shapeVariant(state))];
     if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
     bound = pipeline;
     if (i == person.first_draw || own.batch != draws_[i - 1].batch) bindBatch(commands, draw, state);

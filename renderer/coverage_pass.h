@@ -45,9 +45,6 @@ class CoveragePass {
   };
   void recordPerson(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const Person& person,
                     vk::Pipeline& bound) const;
-  static ShaderVariant variantFor(const DrawState& state) {
-    return {.textured = state.textured && state.cut_out, .cut_out = state.cut_out, .hides_faces = false};
-  }
 
   VariantPipelines pipelines_ = noPipelines();
   vk::raii::QueryPool queries_ = nullptr;

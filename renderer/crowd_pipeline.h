@@ -17,6 +17,11 @@ struct ShaderVariant {
   auto operator<=>(const ShaderVariant&) const = default;
 };
 
+/// Where only the shape matters: a texture is read as far as it cuts out.
+inline ShaderVariant shapeVariant(const DrawState& state) {
+  return {.textured = state.textured && state.cut_out, .cut_out = state.cut_out, .hides_faces = false};
+}
+
 struct PipelineOptions {
   vk::ShaderModule vertex_shader = {};
   vk::ShaderModule fragment_shader = {};  ///< null: depth only

@@ -17,11 +17,6 @@ ShaderVariant colorVariant(const DrawState& state) {
   return {.textured = state.textured, .cut_out = state.cut_out, .hides_faces = false};
 }
 
-/// Where only the shape matters, colours do as far as they cut out.
-ShaderVariant shapeVariant(const DrawState& state) {
-  return {.textured = state.textured && state.cut_out, .cut_out = state.cut_out, .hides_faces = false};
-}
-
 std::size_t slotOf(std::uint32_t samples) { return samples > 1 ? 1 : 0; }
 
 }  // namespace

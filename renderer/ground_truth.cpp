@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/box.h"
 #include "core/check.h"
+#include "core/clip.h"
 #include "renderer/posed_joints.h"
 #include "renderer/view_setup.h"
 
@@ -42,33 +44,12 @@ std::vector<Pixels> collectPixels(const Picture& picture, const View& view, std:
 /// Calls take(position in model space) for the vertices of a dressed body: all of it, also what its clothes
 /// hide, so that no technique moves a box.
 template <class Take>
-void forEachVertex(const Wardrobe& wardrobe, const Combination& items, std::span<const Mat4> matrices,
-                   const Take& take) {
-  const auto pose = [&](const RawVertex& vertex) {
-    const bool is_loose = vertex.skin.weights[0] == 0.0f;
-    take(is_loose ? vertex.position : skinPosition(vertex, matrices));
-  };
+void forEachPosition(const Wardrobe& wardrobe, const Combination& items, std::span<const Mat4> matrices,
+                     const Take& take) {
+  const auto pose = [&](const RawVertex& vertex) { take(skinPosition(vertex, matrices)); };
   for (const RawVertex& vertex : wardrobe.body.vertices) pose(vertex);
-  for (const ItemId id : items) {
-    const Item& item = wardrobe.items[id];
-    for (const Garment& garment : item.garments) {
-      for (const ItemPart& part : garment.parts)
-        std::for_each(part.vertices.begin(), part.vertices.end(), pose);
-    }
-    for (const ExtraBodyPart& extra : item.extra_body) {
-      std::for_each(extra.part.vertices.begin(), extra.part.vertices.end(), pose);
-    }
-  }
+  for (const ItemId id : items) forEachVertex(wardrobe.items[id], pose);
 }
-
-/// Grows around points.
-struct Extent {
-  Vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
-  void add(Vec3 point) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-};
 
 struct PictureExtent {
   glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
@@ -87,20 +68,20 @@ struct PictureExtent {
 };
 
 void fillBoxes(const Wardrobe& wardrobe, const Combination& items, const CharacterPose& pose,
-               std::span<const Mat4> matrices, const View& view, PersonTruth& truth) {
-  const PinholeCamera camera = pinholeOf(view);
+               std::span<const Mat4> matrices, const PinholeCamera& camera, const View& view,
+               PersonTruth& truth) {
   const CameraFrame frame = cameraFrame(view.camera);
-  Extent model;
+  Box model;
   PictureExtent seen;
-  forEachVertex(wardrobe, items, matrices, [&](Vec3 position) {
+  forEachPosition(wardrobe, items, matrices, [&](Vec3 position) {
     model.add(position);
     const Vec3 world(pose.world_from_model * Vec4(position, 1.0f));
     const bool is_near = glm::dot(frame.forward, world - view.camera.position) < view.camera.near_plane;
     seen.add(camera.project(world), is_near);
   });
   truth.whole_box = seen.box();
-  truth.center = Vec3(pose.world_from_model * Vec4(0.5f * (model.low + model.high), 1.0f));
-  truth.size = (model.high - model.low) * glm::length(Vec3(pose.world_from_model[0]));
+  truth.center = Vec3(pose.world_from_model * Vec4(model.center(), 1.0f));
+  truth.size = model.extent() * glm::length(Vec3(pose.world_from_model[0]));
 }
 
 PictureJoint jointInPicture(Vec3 joint, const PinholeCamera& camera, const View& view, const Picture& picture,
@@ -165,7 +146,7 @@ std::vector<PersonTruth> truthOf(const Crowd& crowd, std::span<const Wardrobe> w
     truth.pixels_alone = picture.coverage[i];
     truth.heading = pose.heading;
     truth.clip = pose.idle_weight > 0.5f ? pose.idle_clip : pose.clip;
-    fillBoxes(wardrobe, crowd.combinations[person.combination].items, pose, matrices, view, truth);
+    fillBoxes(wardrobe, crowd.combinations[person.combination].items, pose, matrices, camera, view, truth);
     truth.joints = jointPositions(wardrobe.body, pose, matrices);
     for (const Vec3& joint : truth.joints) {
       truth.picture_joints.push_back(jointInPicture(joint, camera, view, picture, i));

@@ -1,7 +1,6 @@
 #include "renderer/posed_joints.h"
 
-#include <algorithm>
-
+#include "core/clip.h"
 #include "core/gait.h"
 #include "shaders/shared/leg_ik.h"
 
@@ -11,15 +10,7 @@ namespace {
 std::vector<Mat4> clipMatrices(const TemplateBody& body, std::uint32_t clip_number, float phase) {
   if (body.clips.empty()) return skinningMatrices(body.skeleton, restPose(body.skeleton));
   const Clip& clip = body.clips[clip_number];
-  const float at = phase * static_cast<float>(clip.key_count - 1);
-  const std::uint32_t key = std::min(static_cast<std::uint32_t>(at), std::max(clip.key_count, 2u) - 2u);
-  const float part = at - static_cast<float>(key);
-  std::vector<Mat4> matrices = skinningMatrices(body.skeleton, clip.key(key));
-  const std::vector<Mat4> next =
-      skinningMatrices(body.skeleton, clip.key(std::min(key + 1, clip.key_count - 1)));
-  for (std::size_t j = 0; j < matrices.size(); ++j)
-    matrices[j] = matrices[j] * (1.0f - part) + next[j] * part;
-  return matrices;
+  return skinningMatricesAt(body.skeleton, clip, phase * static_cast<float>(clip.key_count - 1));
 }
 
 Mat4 toMatrix(const leg_ik::LegMove& move) {
@@ -50,13 +41,10 @@ void holdFeet(const Legs& legs, const CharacterPose& pose, std::vector<Mat4>& ma
 std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& pose) {
   std::vector<Mat4> matrices = clipMatrices(body, pose.clip, pose.phase);
   if (pose.idle_weight > 0.0f) {
-    const std::vector<Mat4> idle = clipMatrices(body, pose.idle_clip, pose.idle_phase);
-    for (std::size_t j = 0; j < matrices.size(); ++j) {
-      matrices[j] = matrices[j] * (1.0f - pose.idle_weight) + idle[j] * pose.idle_weight;
-    }
+    mixMatrices(matrices, clipMatrices(body, pose.idle_clip, pose.idle_phase), pose.idle_weight);
   }
-  const std::optional<Legs> legs = findLegs(body.skeleton);
-  if (pose.holds_feet && legs) holdFeet(*legs, pose, matrices);
+  if (!pose.holds_feet) return matrices;
+  if (const std::optional<Legs> legs = findLegs(body.skeleton)) holdFeet(*legs, pose, matrices);
   return matrices;
 }
 

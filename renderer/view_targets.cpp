@@ -89,6 +89,24 @@ void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
   aov_depth = gpu::Image(device, options, what);
 }
 
+vk::RenderingAttachmentInfo recordClearedDepth(const vk::raii::CommandBuffer& commands,
+                                               const gpu::Image& depth) {
+  using Access = vk::AccessFlagBits2;
+  constexpr auto stages =
+      vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests;
+  gpu::recordBarrier(commands, depth,
+                     {.from_stage = stages,
+                      .to_stage = stages,
+                      .from_access = Access::eDepthStencilAttachmentWrite,
+                      .to_access = Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
+                      .to = vk::ImageLayout::eDepthAttachmentOptimal});
+  return {.imageView = depth.view(),
+          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+          .loadOp = vk::AttachmentLoadOp::eClear,
+          .storeOp = vk::AttachmentStoreOp::eDontCare,
+          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
+}
+
 void recordFullViewport(const vk::raii::CommandBuffer& commands, std::uint32_t width, std::uint32_t height) {
   commands.setViewport(0, vk::Viewport{.width = static_cast<float>(width),
                                        .height = static_cast<float>(height),

@@ -74,6 +74,11 @@ struct ViewTargets {
   std::array<Readback, 5> aov_readbacks;
 };
 
+/// Makes a depth image ready to be cleared and drawn into, after other passes may have done so.
+/// @return the attachment that clears it to the sky's depth, 0, and drops it afterwards
+vk::RenderingAttachmentInfo recordClearedDepth(const vk::raii::CommandBuffer& commands,
+                                               const gpu::Image& depth);
+
 /// A viewport and a scissor over a whole target.
 void recordFullViewport(const vk::raii::CommandBuffer& commands, std::uint32_t width, std::uint32_t height);
 /// The viewport of the whole picture, moved so that the tile falls onto the target, and the tile's scissor.

@@ -202,6 +202,8 @@ RENDERING = [
      "metres and export it again"),
     ("render nowhere.yaml -o a.png", 3, "nowhere.yaml: no such file; check the path"),
     ("render table.yaml -o a.png --set crowd.placement.file=none.csv", 3, "none.csv: no such file; check the path"),
+    ("render scene.yaml -o a.png --annotations -", 2,
+     "--annotations -: annotations go to a file, which --resume goes on with; write --annotations people.json"),
     ("render scene.yaml -o a.png --dump-crowd a.txt", 2,
      "--dump-crowd a.txt: a crowd table's name ends in .csv: a scene knows it by that; write --dump-crowd crowd.csv"),
     ("render scene.yaml -o a.bmp", 2, "-o a.bmp: pictures can't be written as '.bmp'; write .png, .exr or .mp4: name.png, "

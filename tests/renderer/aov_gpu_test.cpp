@@ -28,8 +28,7 @@ class AovTest : public GpuTest {
     std::array<Vec3, 3> result;
     for (std::size_t i = 0; i < 3; ++i) {
       const RawVertex& vertex = vertices[face[i]];
-      const bool is_loose = vertex.skin.weights[0] == 0.0f;
-      const Vec3 model = is_loose ? vertex.position : skinPosition(vertex, matrices);
+      const Vec3 model = skinPosition(vertex, matrices);
       result[i] = Vec3(person.worldFromModel() * Vec4(model, 1.0f));
     }
     return result;
