@@ -83,6 +83,10 @@ const draco::PointAttribute& findAttribute(const draco::Mesh& mesh, const JsonRe
     unique_id.fail(fmt::format("the Draco attribute has {} components, the accessor {}",
                                static_cast<int>(attribute->num_components()), components));
   }
+  // Draco reads these unchecked, as a bool that may be neither.
+  if (attribute->data_type() == draco::DT_BOOL) {
+    unique_id.fail("the Draco attribute holds truth values, which glTF has none of");
+  }
   return *attribute;
 }
 
