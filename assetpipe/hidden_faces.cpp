@@ -1,9 +1,13 @@
 #include "assetpipe/hidden_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "assetpipe/ray_scene.h"
 #include "core/clip.h"
@@ -36,117 +40,180 @@ std::vector<ViewedPose> choosePoses(const TemplateBody& body, std::uint32_t most
   return poses;
 }
 
+/// Per face: those that share an edge with it, by positions, so that seams of normals and materials are none.
+std::vector<std::vector<std::uint32_t>> neighbours(const TemplateBody& body) {
+  using Point = std::array<float, 3>;
+  const auto pointOf = [&](std::uint32_t vertex) {
+    const Vec3 position = body.vertices[VertexId(vertex)].position;
+    return Point{position.x, position.y, position.z};
+  };
+  std::map<std::pair<Point, Point>, std::vector<std::uint32_t>> edges;
+  for (std::uint32_t f = 0; f < body.faces.size(); ++f) {
+    const Triangle& corners = body.faces[FaceId(f)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges[std::minmax(pointOf(corners[i]), pointOf(corners[(i + 1) % 3]))].push_back(f);
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> result(body.faces.size());
+  for (const auto& [edge, faces] : edges) {
+    for (const std::uint32_t a : faces) {
+      for (const std::uint32_t b : faces) {
+        if (a != b) result[a].push_back(b);
+      }
+    }
+  }
+  return result;
+}
+
+/// Turns connected patches of at most `most` faces that are kept (or not), none of them plainly.
+void joinPatches(const TemplateBody& body, std::uint32_t most, bool kept, PerFace<FaceHole>& faces) {
+  const std::vector<std::vector<std::uint32_t>> next_to = neighbours(body);
+  std::vector<bool> visited(faces.size(), false);
+  for (std::uint32_t start = 0; start < faces.size(); ++start) {
+    if (visited[start] || faces[FaceId(start)].is_kept != kept) continue;
+    std::vector<std::uint32_t> patch{start};
+    visited[start] = true;
+    bool is_plain = false;
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      is_plain = is_plain || faces[FaceId(patch[i])].is_plain;
+      for (const std::uint32_t other : next_to[patch[i]]) {
+        if (visited[other] || faces[FaceId(other)].is_kept != kept) continue;
+        visited[other] = true;
+        patch.push_back(other);
+      }
+    }
+    const bool is_whole_piece = std::all_of(patch.begin(), patch.end(), [&](std::uint32_t face) {
+      return std::all_of(next_to[face].begin(), next_to[face].end(),
+                         [&](std::uint32_t other) { return faces[FaceId(other)].is_kept == kept; });
+    });
+    if (patch.size() > most || is_plain || is_whole_piece) continue;  // such as a lash in front of the eye
+    for (const std::uint32_t face : patch) faces[FaceId(face)].is_kept = !kept;
+  }
+}
+
 /// Looks at faces in one pose.
 class Lookout {
  public:
   /// @param number of the pose: shifts points and directions, so that each pose tries others
-  Lookout(const RayScene& scene, const HiddenFaceOptions& options, std::uint32_t number)
-      : scene_(scene), options_(options), shift_(fraction(kPlastic * number)) {}
+  Lookout(const RayDevice& device, const TemplateBody& body, std::span<const Item* const> items,
+          std::span<const Mat4> matrices, const HiddenFaceOptions& options, std::uint32_t number)
+      : scene_(device, body, items, matrices), options_(options), shift_(fraction(kPlastic * number)) {}
 
-  bool sees(const Triangle& corners, std::uint32_t face, std::span<const std::uint8_t> gone) const {
+  struct Hole {
+    float share = 0.0f, area = 0.0f;
+  };
+  Hole holeOf(const Triangle& corners, std::uint32_t face) const {
     const Vec3 a = scene_.body()[corners[0]], b = scene_.body()[corners[1]], c = scene_.body()[corners[2]];
-    const Vec3 area = glm::cross(b - a, c - a);
-    const float length = glm::length(area);
-    if (!(length > 0.0f)) return false;
-    const Vec3 normal = area / length;
-    const auto enough =
-        static_cast<std::uint32_t>(options_.threshold * static_cast<float>(options_.samples)) + 1;
-    std::uint32_t seen = 0;
+    const Vec3 doubled = glm::cross(b - a, c - a);
+    const float length = glm::length(doubled);
+    if (!(length > 0.0f)) return {};
+    double missed = 0.0;
     for (std::uint32_t s = 0; s < options_.samples; ++s) {
       double u = fraction(shift_ + kPlastic * (s + 1)), v = fraction(shift_ + kPlastic2 * (s + 1));
       if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
       const Vec3 point = a + static_cast<float>(u) * (b - a) + static_cast<float>(v) * (c - a);
-      if (!seesPoint(point, normal, face, s, gone)) continue;
-      if (++seen == enough) return true;
+      missed += missedAt(point, doubled / length, face, s);
     }
-    return false;
+    // Cosines over a hemisphere are 1/2 on average; a picture from any side shows 1/4 of a surface on
+    // average.
+    const double share = 2.0 * missed / (options_.samples * options_.directions);
+    return {static_cast<float>(share), static_cast<float>(share * 0.25 * 0.5 * double{length})};
   }
 
  private:
-  bool seesPoint(Vec3 point, Vec3 normal, std::uint32_t face, std::uint32_t sample,
-                 std::span<const std::uint8_t> gone) const {
-    if (options_.tolerance > 0.0f &&
-        scene_.depthOfCloth(point, normal, face, options_.tolerance) <= options_.tolerance)
-      return false;
+  /// The sum of the cosines of the rays along which one would see that the point is missing.
+  double missedAt(Vec3 point, Vec3 normal, std::uint32_t face, std::uint32_t sample) const {
+    if (scene_.hasClothUnder(point, normal, options_.tolerance)) return 0.0;
     const Vec3 helper = std::abs(normal.x) < 0.8f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 x = glm::normalize(glm::cross(helper, normal)), y = glm::cross(normal, x);
     const double turn = shift_ + kGolden * sample;
-    for (std::uint32_t d = 0; d < options_.directions; ++d) {
-      // Even over the hemisphere; the first rays go where most is seen.
+    double missed = 0.0;
+    for (std::uint32_t d = 0; d < options_.directions; ++d) {  // even over the hemisphere
       const double up = 1.0 - (d + fraction(turn + 0.5)) / options_.directions;
       const double angle = 2.0 * kPi * fraction(turn + kGolden * d), out = std::sqrt(1.0 - up * up);
       const Vec3 direction = static_cast<float>(out * std::cos(angle)) * x +
                              static_cast<float>(out * std::sin(angle)) * y + static_cast<float>(up) * normal;
-      if (scene_.isSeen(point, direction, face, gone)) return true;
+      if (!scene_.isSeen(point, direction, face)) continue;
+      if (!scene_.hasClothUnder(point, direction, options_.tolerance)) missed += up;
     }
-    return false;
+    return missed;
   }
 
-  const RayScene& scene_;
+  RayScene scene_;
   const HiddenFaceOptions& options_;
   double shift_;
 };
 
-/// Looks at all faces in all poses; what was seen in an earlier pose is not looked at again, which changes
-/// nothing in what is found.
+/// Looks at all faces in all poses, some poses at a time so that their scenes fit into memory.
 class Search {
  public:
   Search(const TemplateBody& body, std::span<const Item* const> items, const HiddenFaceOptions& options)
-      : body_(body),
-        items_(items),
-        options_(options),
-        poses_(choosePoses(body, options.poses)),
-        first_(body.faces.size()) {
-    for (std::atomic<std::uint32_t>& pose : first_) pose = FaceSightings::kNever;
+      : body_(body), items_(items), options_(options) {
+    found_.poses = choosePoses(body, options.poses);
+    found_.faces = PerFace<FaceHole>(body.faces.size());
   }
 
-  FaceSightings find() {
-    look({});
-    std::vector<std::uint8_t> gone(first_.size());
-    for (std::size_t f = 0; f < gone.size(); ++f) gone[f] = first_[f] == FaceSightings::kNever;
-    look(gone);
-    FaceSightings found;
-    found.poses = poses_;
-    for (const std::atomic<std::uint32_t>& pose : first_) found.first_pose.push(pose);
-    return found;
+  FaceHoles find() {
+    for (std::size_t first = 0; first < found_.poses.size(); first += kBatch) {
+      const std::size_t count = std::min(kBatch, found_.poses.size() - first);
+      std::vector<std::optional<Lookout>> lookouts(count);
+      forEach(count, [&](std::size_t i) {
+        const std::vector<Mat4> matrices = matricesAt(body_, found_.poses[first + i]);
+        lookouts[i].emplace(device_, body_, items_, matrices, options_,
+                            static_cast<std::uint32_t>(first + i));
+      });
+      forEach(found_.faces.size(), [&](std::size_t face) {
+        for (std::size_t i = 0; i < count; ++i)
+          look(*lookouts[i], first + i, static_cast<std::uint32_t>(face));
+      });
+    }
+    for (const bool kept : {true, false}) joinPatches(body_, options_.patch, kept, found_.faces);
+    return std::move(found_);
   }
 
  private:
-  void look(std::span<const std::uint8_t> gone) {
-    std::atomic<std::uint32_t> next{0};
-    const auto work = [&] {
-      for (std::uint32_t p = next++; p < poses_.size(); p = next++) lookAt(p, gone);
+  static constexpr std::size_t kBatch = 24;
+  static constexpr float kPlainShare = 2.0f, kPlainArea = 4.0f;  // times the limits
+
+  void look(const Lookout& lookout, std::size_t pose, std::uint32_t number) {
+    FaceHole& face = found_.faces[FaceId(number)];
+    if (face.is_plain) return;
+    const Lookout::Hole hole = lookout.holeOf(body_.faces[FaceId(number)], number);
+    if (hole.share > face.share) {
+      face.share = hole.share;
+      face.pose = static_cast<std::uint32_t>(pose);
+    }
+    face.area += hole.area / static_cast<float>(found_.poses.size());
+    face.is_kept = face.share > options_.hole_share || face.area > options_.hole_area;
+    face.is_plain =
+        face.share > kPlainShare * options_.hole_share || face.area > kPlainArea * options_.hole_area;
+  }
+
+  /// Calls work(0 .. count - 1) from all threads.
+  template <class Work>
+  void forEach(std::size_t count, const Work& work) const {
+    std::atomic<std::size_t> next{0};
+    const auto run = [&] {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
     };
     const unsigned jobs =
         options_.jobs > 0 ? options_.jobs : std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> threads;
-    for (unsigned t = 1; t < jobs; ++t) threads.emplace_back(work);
-    work();
-  }
-
-  void lookAt(std::uint32_t pose, std::span<const std::uint8_t> gone) {
-    const RayScene scene(device_, body_, items_, matricesAt(body_, poses_[pose]));
-    const Lookout lookout(scene, options_, pose);
-    for (std::uint32_t f = 0; f < first_.size(); ++f) {
-      if (first_[f] <= pose || !lookout.sees(body_.faces[FaceId(f)], f, gone)) continue;
-      std::uint32_t earlier = first_[f];
-      while (pose < earlier && !first_[f].compare_exchange_weak(earlier, pose)) {
-      }
-    }
+    for (unsigned t = 1; t < jobs; ++t) threads.emplace_back(run);
+    run();
   }
 
   const TemplateBody& body_;
   std::span<const Item* const> items_;
   const HiddenFaceOptions& options_;
   RayDevice device_;
-  std::vector<ViewedPose> poses_;
-  std::vector<std::atomic<std::uint32_t>> first_;  // per face: the first pose that shows it
+  FaceHoles found_;
 };
 
 }  // namespace
 
-FaceSightings findSightings(const TemplateBody& body, std::span<const Item* const> items,
-                            const HiddenFaceOptions& options) {
+FaceHoles findHoles(const TemplateBody& body, std::span<const Item* const> items,
+                    const HiddenFaceOptions& options) {
   return Search(body, items, options).find();
 }
 

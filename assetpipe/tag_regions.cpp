@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <optional>
 
+#include "assetpipe/explain.h"
 #include "assetpipe/match_faces.h"
+#include "assetpipe/outfit_properties.h"
 #include "assetpipe/segment.h"
+#include "core/box.h"
 #include "core/check.h"
 #include "core/input_error.h"
 
@@ -18,6 +21,7 @@ namespace ensemble {
 namespace {
 
 constexpr float kJointTolerance = 0.001f;  // metres
+constexpr float kFarGarment = 0.25f;       // metres from the body's box
 
 /// A primitive of the outfit that is body.
 struct BodyPrimitive {
@@ -50,13 +54,19 @@ class OutfitTagger {
  public:
   OutfitTagger(const RawAsset& outfit, const TemplateBody& body, const TagOptions& options,
                const std::string& file, std::vector<std::string>& warnings)
-      : outfit_(outfit), body_(body), options_(options), file_(file), warnings_(warnings) {}
+      : outfit_(outfit),
+        body_(body),
+        options_(options),
+        file_(file),
+        warnings_(warnings),
+        own_(readOutfitProperties(outfit, body, options.occlusion, file)) {}
 
   Item tag(const std::string& name) {
     item_.name = name;
     item_.materials = outfit_.materials;
     item_.images = outfit_.images;
-    readSlot();
+    item_.slot = own_.slot;
+    item_.layer = own_.layer;
     splitBodyFromGarments();
     matchBody();  // before the joints: of another person's outfit its body tells most
     mapJoints();
@@ -64,35 +74,20 @@ class OutfitTagger {
       for (RawPrimitive& part : garment.parts) part = withTemplateJoints(std::move(part));
     }
     if (matches_.unmatched > 0) keepUnmatchedFaces();
-    if (options_.occlusion != Occlusion::kAuthored) findHiddenFaces();
+    if (own_.occlusion != Occlusion::kAuthored) findHiddenFaces();
+    applyOverrides();
+    if (holes_ && !options_.explain.empty()) {
+      explainHiddenFaces(options_.explain, body_, item_, authored_, *holes_, options_.hidden);
+    }
     item_.tags = tagRegions(body_, item_.visible, item_.extra_body);
     warnIfComplete();
+    warnOfStrangePlaces();
     return std::move(item_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& where, const std::string& what, const std::string& mend) const {
     throw InputError({file_, where, what, mend});
-  }
-
-  /// Slot and layer come from the scene's custom properties, where an artist can set them.
-  void readSlot() {
-    using nlohmann::json;
-    const json extras = json::parse(outfit_.scene_extras_json, nullptr, false);
-    const json ensemble = extras.is_object() ? extras.value("ensemble", json()) : json();
-    if (!ensemble.is_object()) return;
-    const json slot = ensemble.value("slot", json()), layer = ensemble.value("layer", json());
-    if (!slot.is_null()) {
-      if (!slot.is_string() || slot.get_ref<const std::string&>().empty())
-        fail("/scenes", "the custom property 'slot' is no text", "set a name");
-      item_.slot = slot;
-    }
-    if (!layer.is_null()) {
-      if (!layer.is_number_integer() || layer < -1000 || layer > 1000) {
-        fail("/scenes", "the custom property 'layer' is no whole number from -1000 to 1000", "set a number");
-      }
-      item_.layer = layer;
-    }
   }
 
   /// Finds each joint that carries weight in the template's skeleton, by name and bind position.
@@ -321,12 +316,26 @@ class OutfitTagger {
 
   void findHiddenFaces() {
     const Item* worn = &item_;
-    const FaceSightings found = findSightings(body_, std::span(&worn, 1), options_.hidden);
+    authored_ = item_.visible;
+    holes_ = findHoles(body_, std::span(&worn, 1), options_.hidden);
     for (std::size_t f = 0; f < body_.faces.size(); ++f) {
-      const bool is_seen = found.first_pose[FaceId(f)] != FaceSightings::kNever;
       std::uint8_t& visible = item_.visible[FaceId(f)];
-      visible = is_seen && (options_.occlusion == Occlusion::kAuto || visible != 0) ? 1 : 0;
+      const bool may_show = own_.occlusion == Occlusion::kAuto || visible != 0;
+      visible = holes_->faces[FaceId(f)].is_kept && may_show ? 1 : 0;
     }
+  }
+
+  /// Regions that the item's custom properties keep or hide, whatever else was found.
+  void applyOverrides() {
+    const auto set = [&](const std::vector<RegionId>& regions, std::uint8_t visible) {
+      for (const RegionId id : regions) {
+        const Region& region = body_.regions[id];
+        for (std::uint32_t f = 0; f < region.face_count; ++f)
+          item_.visible[FaceId(region.first_face + f)] = visible;
+      }
+    };
+    set(own_.keep, 1);
+    set(own_.hide, 0);
   }
 
   void warnIfComplete() const {
@@ -334,10 +343,32 @@ class OutfitTagger {
         std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
     if (!complete) return;
     warnings_.push_back(
-        options_.occlusion == Occlusion::kAuthored
+        own_.occlusion == Occlusion::kAuthored
             ? "its body is complete, so nothing is hidden under the clothes; remove the faces that "
               "they hide before exporting, or let --auto-occlusion find them"
             : "its clothes hide no face of the body");
+  }
+
+  /// Right in itself, but hardly meant.
+  void warnOfStrangePlaces() const {
+    if (item_.visibleBodyFaceCount() == 0) {
+      warnings_.push_back("nothing of the body shows under it; if that is not meant, look at --explain");
+    }
+    Box body;
+    for (const RawVertex& vertex : body_.vertices) body.add(vertex.position);
+    for (const Garment& garment : item_.garments) {
+      Box box;
+      for (const ItemPart& part : garment.parts) {
+        for (const RawVertex& vertex : part.vertices) box.add(vertex.position);
+      }
+      if (box.empty()) continue;
+      const Vec3 gap = glm::max(glm::max(box.low - body.high, body.low - box.high), Vec3(0.0f));
+      const float distance = glm::length(gap);
+      if (distance < kFarGarment) continue;
+      warnings_.push_back(
+          fmt::format("garment '{}' lies {:.2f} m from the body; is it in other units, or elsewhere?",
+                      garment.name, distance));
+    }
   }
 
   const RawAsset& outfit_;
@@ -348,6 +379,9 @@ class OutfitTagger {
   std::vector<std::uint16_t> joint_map_;  ///< per joint of the outfit: the template's
   std::vector<BodyPrimitive> body_primitives_;
   FaceMatches matches_;  ///< of the body primitives' faces, in order
+  OutfitProperties own_;
+  PerFace<std::uint8_t> authored_;  ///< what the author left visible, before rays were asked
+  std::optional<FaceHoles> holes_;
   Item item_;
 };
 

@@ -1,10 +1,12 @@
 // The tagging of Lister, Laycock and Day: which regions of the template show under an outfit.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "assetpipe/hidden_faces.h"
+#include "assetpipe/outfit_properties.h"
 #include "core/raw_asset.h"
 #include "core/wardrobe.h"
 
@@ -13,23 +15,18 @@ namespace ensemble {
 inline constexpr float kDefaultTolerance = 0.0002f;  ///< metres
 inline constexpr double kMaxUnmatchedShare = 0.02;   ///< of the embedded body's faces (design 3)
 
-/// Where the faces come from that clothes hide.
-enum class Occlusion : std::uint8_t {
-  kAuthored,  ///< the outfit's author has removed them from its body
-  kAuto,      ///< found by rays (hidden_faces.h); what the author removed does not matter
-  kBoth,      ///< those of the author and those found
-};
-
 struct TagOptions {
   float tolerance = kDefaultTolerance;  ///< metres: how far a corner may be from the template's
   std::string body_node;  ///< take this node alone as the body; empty: whatever has a region's material
   Occlusion occlusion = Occlusion::kAuthored;
-  HiddenFaceOptions hidden;  ///< for kAuto and kBoth
+  HiddenFaceOptions hidden;       ///< for kAuto and kBoth
+  std::filesystem::path explain;  ///< folder for what explain.h writes; empty: not wanted
 };
 
 /// Turns an outfit as an artist exported it into an item: tells body from garments, brings joints
 /// to the template's (by name, bind positions within 1 mm or five tolerances), matches the body's
-/// faces and tags every region. `extras` of the scene may give `{"ensemble": {"slot", "layer"}}`.
+/// faces and tags every region. `extras` of the scene may give `{"ensemble": {"slot", "layer", "occlusion",
+/// "keep", "hide"}}` (docs/wardrobe.md).
 /// @param name the item's name, see isValidItemName
 /// @param warnings whole sentences for the user
 /// @throws InputError: no body, no garment and nothing hidden, unskinned garments, a joint that the

@@ -17,6 +17,8 @@ struct TagArguments {
   std::vector<std::string> outfits, clips;
   std::string occlusion = "authored", regions = "material";
   bool auto_occlusion = false;
+  std::string explain;
+  float hole_mm2 = HiddenFaceOptions().hole_area * 1.0e6f;
   std::string body_node;
   float tolerance_mm = kDefaultTolerance * 1000.0f;
   bool draco = false;
@@ -32,6 +34,20 @@ void addTaggingOptions(CLI::App& command, TagArguments& arguments) {
       ->check(CLI::IsMember({"authored", "auto", "both"}))
       ->type_name("KIND");
   command.add_flag("--auto-occlusion", arguments.auto_occlusion, "The same as --occlusion auto");
+  command
+      .add_option(
+          "--hole", arguments.hole_mm2,
+          "With auto and both: how large a hole may be where a face is left out of which a little could be "
+          "seen, in square millimetres on average over all sides and poses; 0 keeps whatever can be seen at "
+          "all, 0 to 1000 (default 12)")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("MM2");
+  command
+      .add_option(
+          "--explain", arguments.explain,
+          "With auto and both: a folder for a picture of the body and a list of its faces, with the clip and "
+          "the time that show each that is kept (default: none)")
+      ->type_name("FOLDER");
   command
       .add_option("--body", arguments.body_node,
                   "Name of the node that is the body (default: whatever has a region's material)")
@@ -63,6 +79,9 @@ PipelineOptions pipelineOptions(const TagArguments& arguments) {
   }
   options.segment.body_node = "";
   options.tag.body_node = arguments.body_node;
+  options.tag.hidden.hole_area = arguments.hole_mm2 * 1.0e-6f;
+  if (arguments.hole_mm2 <= 0.0f) options.tag.hidden.hole_share = 0.0f;
+  options.tag.explain = arguments.explain;
   options.tag.tolerance = arguments.tolerance_mm / 1000.0f;
   options.clips.assign(arguments.clips.begin(), arguments.clips.end());
   options.draco = arguments.draco;

@@ -44,14 +44,14 @@ Item closedSleeve(float radius, const RawMaterial& material = clothMaterial("clo
   return item;
 }
 
-FaceSightings sightings(const TemplateBody& body, const Item& item, const HiddenFaceOptions& options = {}) {
+FaceHoles holes(const TemplateBody& body, const Item& item, const HiddenFaceOptions& options = {}) {
   const Item* worn = &item;
-  return findSightings(body, std::span(&worn, 1), options);
+  return findHoles(body, std::span(&worn, 1), options);
 }
 
-std::size_t countHidden(const FaceSightings& found) {
-  return static_cast<std::size_t>(
-      std::count(found.first_pose.begin(), found.first_pose.end(), FaceSightings::kNever));
+std::size_t countHidden(const FaceHoles& found) {
+  return static_cast<std::size_t>(std::count_if(found.faces.begin(), found.faces.end(),
+                                                [](const FaceHole& face) { return !face.is_kept; }));
 }
 
 /// Heights of a face at rest.
@@ -64,20 +64,18 @@ std::pair<float, float> heights(const TemplateBody& body, FaceId face) {
   return {low, high};
 }
 
-TEST(HiddenFaces, WithoutClothesEverythingShows) {
-  EXPECT_EQ(countHidden(sightings(tubeBody(), Item())), 0u);
-}
+TEST(HiddenFaces, WithoutClothesEverythingShows) { EXPECT_EQ(countHidden(holes(tubeBody(), Item())), 0u); }
 
 TEST(HiddenFaces, ClothAllAroundHidesAllOfTheBody) {
-  EXPECT_EQ(countHidden(sightings(tubeBody(), closedSleeve(0.205f))), std::size_t{kTubeFaces});
+  EXPECT_EQ(countHidden(holes(tubeBody(), closedSleeve(0.205f))), std::size_t{kTubeFaces});
 }
 
 TEST(HiddenFaces, WhatLooksOutOfAnOpeningIsKept) {
   const TemplateBody body = tubeBody();
-  const FaceSightings found = sightings(body, sleeve(0.205f, 0.3f, 1.5f));
+  const FaceHoles found = holes(body, sleeve(0.205f, 0.3f, 1.5f));
   for (std::uint32_t f = 0; f < kTubeFaces; ++f) {
     const auto [low, high] = heights(body, FaceId(f));
-    const bool is_seen = found.first_pose[FaceId(f)] != FaceSightings::kNever;
+    const bool is_seen = found.faces[FaceId(f)].is_kept;
     if (high < 0.31f || low > 1.49f) {
       EXPECT_TRUE(is_seen) << low << " to " << high;
     } else if (low > 0.74f && high < 1.06f) {
@@ -88,22 +86,76 @@ TEST(HiddenFaces, WhatLooksOutOfAnOpeningIsKept) {
 
 TEST(HiddenFaces, SkinThatPokesThroughIsHiddenWithinTheTolerance) {
   const TemplateBody body = tubeBody();
-  EXPECT_EQ(countHidden(sightings(body, closedSleeve(0.195f))), std::size_t{kTubeFaces});
-  EXPECT_EQ(countHidden(sightings(body, closedSleeve(0.195f), {.tolerance = 0.0f})), 0u);
-  EXPECT_EQ(countHidden(sightings(body, closedSleeve(0.185f))), 0u) << "15 mm under the skin";
+  EXPECT_EQ(countHidden(holes(body, closedSleeve(0.195f))), std::size_t{kTubeFaces});
+  EXPECT_EQ(countHidden(holes(body, closedSleeve(0.195f), {.tolerance = 0.0f})), 0u);
+  EXPECT_EQ(countHidden(holes(body, closedSleeve(0.185f))), 0u) << "15 mm under the skin";
+}
+
+// A bare tube shows all of itself: every hole is the face. On average over all sides a picture shows a
+// quarter of a surface, but the tube's far parts bend away and hide no part of it.
+TEST(HiddenFaces, TheHoleOfABareFaceIsTheFace) {
+  TemplateBody body = tubeBody();
+  body.clips.clear();
+  const FaceHoles found = holes(body, Item());
+  for (std::uint32_t f = 0; f < kTubeFaces; ++f) {
+    const Triangle& corners = body.faces[FaceId(f)];
+    const auto at = [&](std::size_t i) { return body.vertices[VertexId(corners[i])].position; };
+    const float area = 0.5f * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+    EXPECT_NEAR(found.faces[FaceId(f)].share, 1.0f, 0.03f);
+    EXPECT_NEAR(found.faces[FaceId(f)].area, 0.25f * area, 0.01f * area);
+  }
+}
+
+TEST(HiddenFaces, HowLargeAHoleMayBeIsForTheCallerToSay) {
+  const TemplateBody body = tubeBody();
+  const Item item = sleeve(0.21f, 0.3f, 1.5f);
+  const auto hidden = [&](float share, float area) {
+    return countHidden(holes(body, item, {.hole_share = share, .hole_area = area, .patch = 0}));
+  };
+  const HiddenFaceOptions usually;
+  const std::size_t strict = hidden(0.0f, 0.0f), usual = hidden(usually.hole_share, usually.hole_area),
+                    lax = hidden(0.9f, 1.0f);
+  EXPECT_GT(strict, 0u);
+  EXPECT_LT(strict, usual);
+  EXPECT_LT(usual, lax);
+}
+
+// A patch of cloth is cut out of a closed sleeve, before the middle of one face, or nothing but a patch is
+// there.
+TEST(HiddenFaces, AFewFacesGoWithThoseAround) {
+  TemplateBody body = tubeBody();
+  body.clips.clear();
+  Item open = closedSleeve(0.205f);
+  std::vector<Triangle>& cloth = open.garments[0].parts[0].faces;
+  const auto isBefore = [&](const Triangle& face, float size) {
+    Vec3 middle(0.0f);
+    for (const std::uint32_t v : face) middle += open.garments[0].parts[0].vertices[v].position / 3.0f;
+    return middle.z > 0.1f && std::abs(middle.x) < 0.1f && std::abs(middle.y - 0.9f) < size;
+  };
+  const auto keptFaces = [&](const HiddenFaceOptions& options) {
+    return std::size_t{kTubeFaces} - countHidden(holes(body, open, options));
+  };
+  std::erase_if(cloth, [&](const Triangle& face) { return isBefore(face, 0.1f); });
+  // What shows through the opening shows plainly: it stays, few faces as it is.
+  EXPECT_GT(keptFaces({}), 0u);
+  // Where nothing is plain the same faces go with those around them.
+  const HiddenFaceOptions lax{.hole_share = 0.6f, .hole_area = 1.0f, .patch = 100};
+  const HiddenFaceOptions strict{.hole_share = 0.6f, .hole_area = 1.0f, .patch = 0};
+  EXPECT_GT(keptFaces(strict), 0u);
+  EXPECT_EQ(keptFaces(lax), 0u);
 }
 
 TEST(HiddenFaces, WhatAMaskMayCutOutOrTheRendererDoesNotDrawHidesNothing) {
   const TemplateBody body = tubeBody();
   RawMaterial mask = clothMaterial("cloth.net");
   mask.alpha_mode = AlphaMode::kMask;
-  EXPECT_EQ(countHidden(sightings(body, closedSleeve(0.205f, mask))), 0u);
+  EXPECT_EQ(countHidden(holes(body, closedSleeve(0.205f, mask))), 0u);
 
   Item inside_out = closedSleeve(0.205f);
   for (Triangle& face : inside_out.garments[0].parts[0].faces) std::swap(face[1], face[2]);
-  EXPECT_EQ(countHidden(sightings(body, inside_out)), std::size_t{kTubeFaces}) << "double-sided";
+  EXPECT_EQ(countHidden(holes(body, inside_out)), std::size_t{kTubeFaces}) << "double-sided";
   inside_out.materials[0].double_sided = false;
-  EXPECT_EQ(countHidden(sightings(body, inside_out)), 0u) << "its back is not drawn";
+  EXPECT_EQ(countHidden(holes(body, inside_out)), 0u) << "its back is not drawn";
 }
 
 TEST(HiddenFaces, APoseMayShowWhatAnotherHides) {
@@ -113,23 +165,23 @@ TEST(HiddenFaces, APoseMayShowWhatAnotherHides) {
     vertex.skin = {};
     vertex.skin.weights[0] = 1.0f;  // it does not sway with the body
   }
-  const FaceSightings found = sightings(body, stiff);
+  const FaceHoles found = holes(body, stiff, {.patch = 0});
   EXPECT_LT(countHidden(found), std::size_t{kTubeFaces});
-  for (const std::uint32_t pose : found.first_pose) {
-    if (pose == FaceSightings::kNever) continue;
-    ASSERT_LT(pose, found.poses.size());
-    EXPECT_GT(found.poses[pose].key, 0.0f) << "in the first pose the body stands upright inside";
+  for (const FaceHole& face : found.faces) {
+    if (!face.is_kept) continue;
+    ASSERT_LT(face.pose, found.poses.size());
+    EXPECT_GT(found.poses[face.pose].key, 0.0f) << "in the first pose the body stands upright inside";
   }
   TemplateBody still = body;
   still.clips.clear();
-  EXPECT_EQ(countHidden(sightings(still, stiff)), std::size_t{kTubeFaces});
+  EXPECT_EQ(countHidden(holes(still, stiff)), std::size_t{kTubeFaces});
 }
 
 TEST(HiddenFaces, TheNumberOfThreadsChangesNothing) {
   const TemplateBody body = tubeBody();
   const Item item = sleeve(0.21f, 0.6f, 1.2f);
-  const FaceSightings one = sightings(body, item, {.jobs = 1}), four = sightings(body, item, {.jobs = 4});
-  EXPECT_TRUE(std::equal(one.first_pose.begin(), one.first_pose.end(), four.first_pose.begin()));
+  const FaceHoles one = holes(body, item, {.jobs = 1}), four = holes(body, item, {.jobs = 4});
+  EXPECT_TRUE(std::equal(one.faces.begin(), one.faces.end(), four.faces.begin()));
 }
 
 TEST(RayScene, TellsWhatStandsInTheWay) {
@@ -142,14 +194,15 @@ TEST(RayScene, TellsWhatStandsInTheWay) {
   const Triangle& corners = body.faces[FaceId(100)];
   Vec3 a = scene.body()[corners[0]], b = scene.body()[corners[1]], c = scene.body()[corners[2]];
   const Vec3 normal = glm::normalize(glm::cross(b - a, c - a)), middle = (a + b + c) / 3.0f;
-  EXPECT_TRUE(scene.isSeen(middle, normal, 100, {}));
-  EXPECT_FALSE(scene.isSeen(middle, -normal, 100, {})) << "the far side of the body";
-  EXPECT_NEAR(scene.depthOfCloth(middle, normal, 100, 0.01f), 0.005f * std::cos(kPi / 8), 2e-4f);
-  EXPECT_EQ(scene.depthOfCloth(middle, normal, 100, 0.004f), std::numeric_limits<float>::infinity());
-  const std::vector<std::uint8_t> all_gone(kTubeFaces, 1);
-  EXPECT_FALSE(scene.isSeen(middle, -normal, 100, all_gone)) << "the far side of the cloth";
+  EXPECT_TRUE(scene.isSeen(middle, normal, 100));
+  EXPECT_FALSE(scene.isSeen(middle, -normal, 100)) << "the far side of body and cloth";
+  EXPECT_TRUE(scene.hasClothUnder(middle, normal, 0.006f)) << "5 mm under it";
+  EXPECT_FALSE(scene.hasClothUnder(middle, normal, 0.004f));
+  EXPECT_FALSE(scene.hasClothUnder(middle, normal, 0.0f));
+  EXPECT_FALSE(scene.hasClothUnder(middle, -normal, 0.5f)) << "one looks into the far side of the sleeve";
   const RayScene bare(device, body, {}, rest);
-  EXPECT_TRUE(bare.isSeen(middle, -normal, 100, all_gone));
+  EXPECT_FALSE(bare.hasClothUnder(middle, normal, 1.0f));
+  EXPECT_FALSE(bare.isSeen(middle, -normal, 100)) << "the far side of the body, seen from outside";
 }
 
 }  // namespace

@@ -176,6 +176,76 @@ TEST(TagRegions, ReadsSlotAndLayerFromTheScene) {
       "tunic.glb: /scenes: the custom property 'layer' is no whole number from -1000 to 1000; set a number");
 }
 
+TEST(TagRegions, AnItemMayKeepAndHideRegions) {
+  RawAsset outfit = halfDressed();
+  const auto visibility = [&](const char* own) {
+    outfit.scene_extras_json = std::string("{\"ensemble\": ") + own + "}";
+    const Item item = tag(outfit);
+    std::vector<Visibility> all;
+    for (const RegionTag& region : item.tags) all.push_back(region.visibility);
+    return all;
+  };
+  using enum Visibility;
+  const std::vector<Visibility> plain = visibility("{}");
+  EXPECT_EQ(visibility(R"({"keep": "legs, torso,head"})"), (std::vector<Visibility>{kFull, kFull, kFull}));
+  EXPECT_EQ(visibility(R"({"hide": ["legs", "torso"], "keep": ["head"]})"),
+            (std::vector<Visibility>{kHidden, kHidden, kFull}));
+  EXPECT_EQ(visibility(R"({"keep": [], "hide": ""})"), plain);
+  EXPECT_INPUT_ERROR(visibility(R"({"keep": "legs,tail"})"),
+                     "tunic.glb: /scenes: the custom property 'keep' names 'tail', which is no region of the "
+                     "template; write 'legs'");
+  EXPECT_INPUT_ERROR(
+      visibility(R"({"hide": 3})"),
+      "tunic.glb: /scenes: the custom property 'hide' is no list of regions; set names, such as "
+      "hands,feet");
+  EXPECT_INPUT_ERROR(
+      visibility(R"({"hide": "legs", "keep": "legs"})"),
+      "tunic.glb: /scenes: the custom properties 'keep' and 'hide' both name the region 'legs'; "
+      "take it out of one of them");
+}
+
+// A tunic far inside the body covers nothing; what its author removed comes back where rays are asked.
+TEST(TagRegions, AnItemMayAskForAKindOfOcclusion) {
+  RawAsset outfit = halfDressed();
+  TagOptions rays;
+  rays.occlusion = Occlusion::kAuto;
+  const auto shown = [&](const char* kind, const TagOptions& options) {
+    outfit.scene_extras_json = std::string("{\"ensemble\": {\"occlusion\": ") + kind + "}}";
+    return tag(outfit, nullptr, options).visibleBodyFaceCount();
+  };
+  const std::uint32_t authored = shown("null", {}), found = shown("null", rays);
+  EXPECT_NE(authored, found);
+  EXPECT_EQ(shown("\"authored\"", rays), authored);
+  EXPECT_EQ(shown("\"auto\"", {}), found);
+  EXPECT_LE(shown("\"both\"", {}), std::min(authored, found));
+  EXPECT_INPUT_ERROR(shown("\"rays\"", {}),
+                     "tunic.glb: /scenes: the custom property 'occlusion' is no kind of occlusion; set "
+                     "authored, auto or both");
+}
+
+TEST(TagRegions, WarnsOfWhatIsHardlyMeant) {
+  std::vector<std::string> warnings;
+  RawAsset far = halfDressed();
+  for (RawMeshNode& node : far.meshes) {
+    if (node.name != "garment.tunic") continue;
+    for (RawPrimitive& primitive : node.primitives) {
+      for (RawVertex& vertex : primitive.vertices) vertex.position *= 100.0f;
+    }
+    for (RawPrimitive& primitive : node.primitives) {
+      for (RawVertex& vertex : primitive.vertices) vertex.position.x += 300.0f;
+    }
+  }
+  tag(far, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], ::testing::StartsWith("garment 'garment.tunic' lies "));
+  warnings.clear();
+  RawAsset covered = halfDressed();
+  covered.scene_extras_json = R"({"ensemble": {"hide": "legs,torso,head"}})";
+  tag(covered, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("nothing of the body shows under it"));
+}
+
 TEST(TagRegions, WarnsOnceOfACompleteBody) {
   std::vector<std::string> warnings;
   const Item item = tag(testing::tubeOutfit([](int, int) { return true; }), &warnings);

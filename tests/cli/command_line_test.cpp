@@ -75,7 +75,7 @@ TEST_F(CommandLine, HiddenFacesAreAuthoredFoundOrBoth) {
   writeFileAtomically(
       folder_ / "tunic.glb",
       writeGlb(testing::tubeOutfit(
-          [](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); }, 0.203f)));
+          [](int region, int face) { return region == 0 || (region == 1 && face % 2 == 0); }, 0.22f)));
   const auto visibleFaces = [&](const std::string& option) {
     const ProgramResult result = run("tag template.glb tunic.glb -o w -q --json - " + option);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -94,6 +94,29 @@ TEST_F(CommandLine, HiddenFacesAreAuthoredFoundOrBoth) {
   EXPECT_LT(both[1], found[1]);
   EXPECT_LT(both[1], 32);
   EXPECT_EQ(both[2], 0);
+}
+
+TEST_F(CommandLine, ExplainTellsWhyFacesAreKept) {
+  writeFileAtomically(folder_ / "tunic.glb",
+                      writeGlb(testing::tubeOutfit([](int, int) { return true; }, 0.22f)));
+  const ProgramResult result = run("tag template.glb tunic.glb -o w -q --auto-occlusion --explain why");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::ifstream file(folder_ / "why" / "tunic.json");
+  const nlohmann::json why = nlohmann::json::parse(file);
+  EXPECT_EQ(why["schema"], "ensemble.explain/1");
+  std::size_t kept = 0;
+  for (const auto& region : why["regions"]) {
+    EXPECT_EQ(region["kept"].get<int>() + region["hidden"].get<int>(), 64);
+    for (const auto& face : region["faces"]) {
+      if (face["verdict"] != "kept") continue;
+      ++kept;
+      EXPECT_TRUE(face["share"] > 0.25 || face["mm2"] > 12.0) << face;
+      EXPECT_TRUE(face["clip"].is_string()) << face;
+    }
+  }
+  EXPECT_GT(kept, 64u) << "head and legs at least";
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "why" / "tunic.png"));
+  EXPECT_EQ(run("tag template.glb tunic.glb -o w -q --auto-occlusion --explain /dev/null/why").exit_code, 1);
 }
 
 TEST_F(CommandLine, InvalidInputIsThree) {
