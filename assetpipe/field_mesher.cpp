@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -178,33 +179,66 @@ FieldMesh meshField(const Field& field, const FieldMesherOptions& options) {
   return mesh;
 }
 
+namespace {
+
+/// Where a vertex goes to lie on both the border and the surface; where it is if that is too far.
+Vec3 onBorder(const Vec3& start, const Field& field, const Field& border, float cell) {
+  Vec3 position = start;
+  for (int step = 0; step < 3; ++step) {
+    const Vec3 gradient = fieldGradient(border, position);
+    const Vec3 normal = fieldNormal(field, position);
+    const Vec3 tangent = gradient - normal * glm::dot(gradient, normal);
+    const float square = glm::dot(tangent, tangent);
+    if (square < 1e-4f) break;
+    position -= tangent * (border(position) / square);
+    position = projectToSurface(field, position, cell);
+  }
+  if (glm::distance(position, start) > 1.5f * cell) return start;
+  if (start.x == 0.0f) position.x = 0.0f;
+  return position;
+}
+
+Vec3 areaNormal(const FieldMesh& mesh, std::uint32_t face) {
+  const Triangle& corners = mesh.faces[face];
+  const Vec3 a = mesh.positions[corners[0]];
+  return glm::cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a);
+}
+
+/// Moves a vertex unless one of its faces would turn over.
+void moveVertex(FieldMesh& mesh, std::uint32_t v, const std::vector<std::uint32_t>& faces,
+                const Vec3& target) {
+  const Vec3 start = mesh.positions[v];
+  for (const std::uint32_t f : faces) {
+    const Vec3 before = areaNormal(mesh, f);
+    mesh.positions[v] = target;
+    const bool turns = glm::dot(before, areaNormal(mesh, f)) <= 0.0f;
+    mesh.positions[v] = start;
+    if (turns) return;
+  }
+  mesh.positions[v] = target;
+}
+
+}  // namespace
+
 void snapToBorder(FieldMesh& mesh, const Field& field, const Field& border, float cell) {
   std::vector<float> level(mesh.positions.size());
   for (std::size_t v = 0; v < level.size(); ++v) level[v] = border(mesh.positions[v]);
-  std::vector<std::uint8_t> moved(mesh.positions.size(), 0);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces_of;  // of those to be moved
   for (const Triangle& face : mesh.faces) {
     for (int corner = 0; corner < 3; ++corner) {
       const std::uint32_t a = face[corner], b = face[(corner + 1) % 3];
-      if ((level[a] < 0.0f) == (level[b] < 0.0f)) continue;
-      const std::uint32_t nearer = std::abs(level[a]) < std::abs(level[b]) ? a : b;
-      moved[nearer] = 1;
+      if ((level[a] < 0.0f) != (level[b] < 0.0f)) faces_of[std::abs(level[a]) < std::abs(level[b]) ? a : b];
     }
   }
-  for (std::size_t v = 0; v < level.size(); ++v) {
-    if (moved[v] == 0) continue;
-    Vec3& position = mesh.positions[v];
-    const Vec3 start = position;
-    for (int step = 0; step < 3; ++step) {
-      const Vec3 gradient = fieldGradient(border, position);
-      const Vec3 normal = fieldNormal(field, position);
-      const Vec3 tangent = gradient - normal * glm::dot(gradient, normal);
-      const float square = glm::dot(tangent, tangent);
-      if (square < 1e-4f) break;
-      position -= tangent * (border(position) / square);
-      position = projectToSurface(field, position, cell);
+  std::vector<std::uint8_t> is_near(mesh.positions.size(), 0);
+  for (const auto& entry : faces_of) is_near[entry.first] = 1;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    for (const std::uint32_t v : mesh.faces[f]) {
+      if (is_near[v] != 0) faces_of[v].push_back(f);
     }
-    if (glm::distance(position, start) > 1.5f * cell) position = start;
-    if (start.x == 0.0f) position.x = 0.0f;
+  }
+  for (const auto& [v, faces] : faces_of) {
+    moveVertex(mesh, v, faces, onBorder(mesh.positions[v], field, border, cell));
   }
 }
 

@@ -28,7 +28,8 @@ struct FieldMesherOptions {
 FieldMesh meshField(const Field& field, const FieldMesherOptions& options);
 
 /// Cuts a mesh along the zero set of `border` by moving the vertices next to it onto it (and back to
-/// the surface of `field`), so that no face lies on both sides by more than a rounding error.
+/// the surface of `field`), so that no face lies on both sides by more than a rounding error, but where a
+/// face would turn over for that: there the cut is as rough as the grid.
 void snapToBorder(FieldMesh& mesh, const Field& field, const Field& border, float cell);
 
 /// A half mesh and its mirror image in x = 0, welded along the plane.

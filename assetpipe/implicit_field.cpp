@@ -216,6 +216,10 @@ float Solid::loftDistance(const Vec3& position) const {
 }
 
 SolidGroup& SolidGroup::join(Solid solid, float blend) {
+  // A smooth union bulges by at most a quarter of its blend.
+  const auto [center, radius] = solid.bounds();
+  low_ = glm::min(low_, center - radius - 0.25f * blend);
+  high_ = glm::max(high_, center + radius + 0.25f * blend);
   parts_.push_back({std::move(solid), blend, false});
   return *this;
 }
@@ -223,6 +227,10 @@ SolidGroup& SolidGroup::join(Solid solid, float blend) {
 SolidGroup& SolidGroup::carve(Solid solid, float blend) {
   parts_.push_back({std::move(solid), blend, true});
   return *this;
+}
+
+float SolidGroup::lowerBound(const Vec3& position) const {
+  return glm::length(glm::max(glm::max(low_ - position, position - high_), Vec3(0.0f)));
 }
 
 float SolidGroup::distance(const Vec3& position) const {

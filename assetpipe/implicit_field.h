@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/math.h"
@@ -54,6 +55,8 @@ class Solid {
   float distance(const Vec3& position) const;
   /// No point of the solid is nearer than this (up to the error of the first-order distances).
   float lowerBound(const Vec3& position) const;
+  /// Centre and radius of a ball that holds the solid.
+  std::pair<Vec3, float> bounds() const { return {center_, radius_}; }
 
   /// A sphere swept from a to b while its radius goes from radius_a to radius_b.
   static Solid roundCone(const Vec3& a, const Vec3& b, float radius_a, float radius_b);
@@ -88,6 +91,8 @@ class SolidGroup {
   SolidGroup& join(Solid solid, float blend);
   SolidGroup& carve(Solid solid, float blend);
   float distance(const Vec3& position) const;
+  /// No point of the group is nearer than this: the distance to a box around it. Costs next to nothing.
+  float lowerBound(const Vec3& position) const;
   bool empty() const { return parts_.empty(); }
 
  private:
@@ -97,6 +102,7 @@ class SolidGroup {
     bool carved;
   };
   std::vector<Part> parts_;
+  Vec3 low_{1e9f}, high_{-1e9f};
 };
 
 }  // namespace ensemble

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "assetpipe/field_mesher.h"
 #include "assetpipe/people_figure.h"
 #include "assetpipe/people_outfits.h"
 #include "core/raw_asset.h"
@@ -23,7 +24,7 @@ struct PersonConfig {
   std::uint64_t seed = 0;  ///< of the garments' colours
   PersonColors colors;
   std::vector<std::string> outfits;  ///< names of outfitPlans(figure.sex); empty: all
-  std::uint32_t body_faces = 3300;   ///< about so many triangles, 1500 .. 20000
+  std::uint32_t body_faces = 3400;   ///< about so many triangles, 1500 .. 20000
 };
 
 struct PeopleConfig {
@@ -38,9 +39,9 @@ struct MadeOutfit {
 
 struct MadePerson {
   std::string name;
-  RawAsset body;  ///< the template: body, skeleton, clips `walk` and `idle`
+  RawAsset body;  ///< the template: body, skeleton, clips
   std::vector<MadeOutfit> outfits;
-  float walk_speed = 0.0f;  ///< of `walk` over the ground, metres a second
+  float walk_speed = 0.0f, run_speed = 0.0f;  ///< of `walk` and `run` over the ground, metres a second
 };
 
 /// Reads a configuration (docs/people.md). @throws InputError FILE: LINE:COLUMN: ...
@@ -48,9 +49,14 @@ PeopleConfig loadPeopleConfig(const std::filesystem::path& file);
 PeopleConfig parsePeopleConfig(const std::string& text, const std::filesystem::path& file);
 
 /// Makes a person in memory; takes a few seconds of `jobs` threads (0: one a core). The same
-/// configuration gives the same bytes. A garment that several outfits share is the same in each,
-/// vertex by vertex. @pre the configuration is as loadPeopleConfig returns it.
+/// configuration gives the same bytes. @throws InputError for a body that cuts itself. A garment that several
+/// outfits share is the same in each, vertex by vertex. @pre the configuration is as loadPeopleConfig returns
+/// it.
 MadePerson makePerson(const PersonConfig& config, unsigned jobs = 0);
+
+/// Refuses a body whose faces cut each other (makeBodyMesh tells when that happens).
+/// @pre the mesh is closed @throws InputError person 'NAME': ...
+void requireSoundBody(const std::string& person, const FieldMesh& mesh);
 
 /// Only the template, as MadePerson::body has it.
 RawAsset makeTemplatePerson(const PersonConfig& config);

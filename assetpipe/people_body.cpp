@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "assetpipe/simplify_surface.h"
+#include "assetpipe/surface_check.h"
 
 namespace ensemble {
 namespace {
@@ -22,25 +24,28 @@ float importance(const Figure& figure, const Vec3& p) {
   const float at_face = 1.0f - smoothStep(0.075f * s, 0.115f * s, glm::distance(p, face));
   const float at_head = smoothStep(-0.06f * s, 0.0f, p.y - figure.joints[kHead].y);
   const float at_hand = smoothStep(-0.02f * s, 0.04f * s, handBorder(figure, p));
-  const float at_toes = 1.0f - smoothStep(0.02f * s, 0.05f * s, p.y);
+  const float at_toes = 1.0f - smoothStep(0.03f * s, 0.06f * s, p.y);
   // Small features weigh little by their area, so each is named.
   struct Feature {
     Vec3 center;  // metres of the reference head, from between the ears
-    float radius;
+    float radius, weight;
   };
-  constexpr Feature kFeatures[] = {{{0.032f, -0.008f, 0.082f}, 0.024f},
-                                   {{0.000f, -0.083f, 0.095f}, 0.026f},
-                                   {{0.006f, -0.045f, 0.108f}, 0.020f},
-                                   {{0.082f, -0.018f, -0.008f}, 0.034f}};
+  constexpr Feature kFeatures[] = {{{0.032f, -0.008f, 0.082f}, 0.024f, 260.0f},
+                                   {{0.000f, -0.083f, 0.095f}, 0.028f, 260.0f},
+                                   {{0.006f, -0.045f, 0.108f}, 0.020f, 90.0f},
+                                   {{0.082f, -0.018f, -0.008f}, 0.034f, 16.0f}};
   float at_feature = 0.0f;
   for (const Feature& feature : kFeatures) {
     const float distance = glm::distance((toLeft(p) - figure.head_center) / figure.head_size, feature.center);
-    const float weight = feature.center.x > 0.05f ? 0.06f : 1.0f;  // an ear is large enough by itself
-    at_feature =
-        std::max(at_feature, weight * (1.0f - smoothStep(0.6f * feature.radius, feature.radius, distance)));
+    at_feature = std::max(
+        at_feature, feature.weight * (1.0f - smoothStep(0.6f * feature.radius, feature.radius, distance)));
   }
-  float result =
-      0.42f + 35.0f * at_face + 260.0f * at_feature + 1.8f * at_head + 2.2f * at_hand + 0.4f * at_toes;
+  float at_tip = 0.0f;
+  for (const Vec3& end : figure.finger_ends) {
+    at_tip = std::max(at_tip, 1.0f - smoothStep(0.010f * s, 0.020f * s, glm::distance(toLeft(p), end)));
+  }
+  float result = 0.42f + 35.0f * at_face + at_feature + 1.8f * at_head + 1.6f * at_hand + 40.0f * at_tip +
+                 2.6f * at_toes;
   for (const int joint : {kLowerArm, kCalf, kUpperArm}) {
     const float distance = glm::distance(toLeft(p), figure.joints[static_cast<std::size_t>(joint)]);
     result += 0.7f * (1.0f - smoothStep(0.05f * s, 0.12f * s, distance));
@@ -98,11 +103,13 @@ BodyRegion bodyRegion(const Figure& figure, const Vec3& p) {
   return footBorder(figure, p) > 0.0f ? BodyRegion::kFeet : BodyRegion::kLegs;
 }
 
-FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
-  const Field body = [&figure](const Vec3& p) { return figure.body(p); };
+namespace {
+
+/// The left half of the surface as the grid has it, cut along the regions' borders.
+FieldMesh meshLeftHalf(const Figure& figure, const Field& body) {
   FieldMesherOptions mesher;
   mesher.low = {0.0f, -0.02f, -0.35f * figure.scale};
-  mesher.high = {0.80f * figure.scale, figure.head_top.y + 0.03f, 0.35f * figure.scale};
+  mesher.high = {0.85f * figure.scale, figure.head_top.y + 0.03f, 0.35f * figure.scale};
   mesher.cell = 0.0034f * figure.scale;
   mesher.half = true;
   FieldMesh half = meshField(body, mesher);
@@ -117,10 +124,35 @@ FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
     const Vec3 middle = (half.positions[face[0]] + half.positions[face[1]] + half.positions[face[2]]) / 3.0f;
     half.labels[f] = static_cast<std::uint8_t>(bodyRegion(figure, middle));
   }
-  SimplifySurfaceOptions simplify;
-  simplify.target_faces = face_count / 2;
-  simplify.importance = [&figure](const Vec3& p) { return importance(figure, p); };
-  return mirrored(simplifySurface(half, body, simplify));
+  return half;
+}
+
+}  // namespace
+
+FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
+  const Field body = [&figure](const Vec3& p) { return figure.body(p); };
+  const FieldMesh half = meshLeftHalf(figure, body);
+  // Where two parts of the body lie close, as in an armpit, few triangles may cut each other: there it
+  // takes more of them, and it is tried again.
+  constexpr int kRounds = 5;
+  std::vector<Vec3> narrow;
+  for (int round = 1;; ++round) {
+    SimplifySurfaceOptions simplify;
+    simplify.target_faces = face_count / 2;
+    simplify.importance = [&](const Vec3& p) {
+      float closeness = 0.0f;
+      for (const Vec3& place : narrow) {
+        const float distance = glm::distance(toLeft(p), toLeft(place));
+        closeness =
+            std::max(closeness, 1.0f - smoothStep(0.02f * figure.scale, 0.04f * figure.scale, distance));
+      }
+      return importance(figure, p) * (1.0f + 10.0f * closeness);
+    };
+    FieldMesh mesh = mirrored(simplifySurface(half, body, simplify));
+    const SurfaceCheck check = checkSurface(mesh.positions, mesh.faces);
+    if (check.crossings.empty() || round == kRounds) return mesh;
+    narrow.insert(narrow.end(), check.crossings.begin(), check.crossings.end());
+  }
 }
 
 RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position,

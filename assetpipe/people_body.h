@@ -30,7 +30,8 @@ float neckline(const Figure& figure, const Vec3& p, float rise, float radius);
 
 BodyRegion bodyRegion(const Figure& figure, const Vec3& p);
 
-/// The body's surface, closed, about `face_count` faces (even), labels are BodyRegion.
+/// The body's surface, closed, about `face_count` faces (even), labels are BodyRegion. No face cuts another
+/// unless `face_count` is too small for that: check with checkSurface.
 FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count);
 
 /// Which joints move a point on or near the body; a smooth function of the position, so that clothes

@@ -57,8 +57,16 @@ std::vector<std::string> readOutfits(const YamlValue& value, Sex sex) {
   return chosen;
 }
 
+/// Metres.
+float defaultHeight(Sex sex, AgeGroup age) {
+  if (age == AgeGroup::kYoung) return sex == Sex::kFemale ? 1.60f : 1.65f;
+  if (age == AgeGroup::kOld) return sex == Sex::kFemale ? 1.61f : 1.73f;
+  return sex == Sex::kFemale ? 1.66f : 1.78f;
+}
+
 PersonConfig readPerson(const YamlValue& value) {
-  value.expectKeys({"name", "sex", "height", "build", "seed", "skin", "hair", "outfits", "faces"});
+  value.expectKeys(
+      {"name", "sex", "age", "height", "girth", "build", "seed", "skin", "hair", "outfits", "faces"});
   PersonConfig person;
   const auto name = value.find("name");
   const auto sex = value.find("sex");
@@ -68,14 +76,21 @@ PersonConfig readPerson(const YamlValue& value) {
   }
   person.name = readName(*name);
   person.figure.sex = sex->word({"female", "male"}) == 0 ? Sex::kFemale : Sex::kMale;
-  person.figure.height = person.figure.sex == Sex::kFemale ? 1.66f : 1.78f;
+  if (const auto age = value.find("age")) {
+    constexpr AgeGroup kGroups[] = {AgeGroup::kYoung, AgeGroup::kAdult, AgeGroup::kOld};
+    person.figure.age = kGroups[age->word({"young", "adult", "old"})];
+  }
+  person.figure.height = defaultHeight(person.figure.sex, person.figure.age);
   if (const auto height = value.find("height")) {
     person.figure.height = height->numberFloat({.min = 1.4, .max = 2.1, .unit = "metres"});
   }
+  if (const auto girth = value.find("girth"))
+    person.figure.girth = girth->numberFloat({.min = -1.0, .max = 1.0});
   if (const auto build = value.find("build"))
     person.figure.build = build->numberFloat({.min = -1.0, .max = 1.0});
   if (const auto seed = value.find("seed")) person.seed = seed->wholeNumber(0, 0xffffffffull);
   person.colors = pickColors(person.seed);
+  if (person.figure.age == AgeGroup::kOld) person.colors.hair = linearFromSrgb(greyHair());
   if (const auto skin = value.find("skin")) person.colors.skin = readColor(*skin, skinTones());
   if (const auto hair = value.find("hair")) person.colors.hair = readColor(*hair, hairColors());
   if (const auto outfits = value.find("outfits")) person.outfits = readOutfits(*outfits, person.figure.sex);

@@ -11,6 +11,8 @@
 namespace ensemble {
 
 enum class Sex : std::uint8_t { kFemale, kMale };
+/// About 14, 30 and 75 years.
+enum class AgeGroup : std::uint8_t { kYoung, kAdult, kOld };
 
 /// The joints of a person, in the skin's order; the same names and order for everybody. Of paired
 /// joints this names the left one, the right one follows at +kRightArm or +kRightLeg.
@@ -57,7 +59,9 @@ std::int32_t jointParent(std::uint16_t joint);  ///< -1 for kRoot
 struct FigureOptions {
   Sex sex = Sex::kFemale;
   float height = 1.68f;  ///< metres, 1.40 .. 2.10
-  float build = 0.0f;    ///< -1 slender .. +1 heavy
+  float build = 0.0f;    ///< the frame: -1 narrow and slight .. +1 broad and muscular
+  float girth = 0.0f;    ///< the flesh on it: -1 thin .. +1 heavy
+  AgeGroup age = AgeGroup::kAdult;
 };
 
 /// The body as fields, one for each region; left and right alike. Each holds the whole limb's end,
@@ -70,6 +74,7 @@ struct Figure {
   float head_size = 1.0f;                      ///< of this head to the reference man's
   std::array<Vec3, kBodyJointCount> joints{};  ///< metres, at rest
   Vec3 head_top{0.0f}, hand_end{0.0f}, toe_end{0.0f};  ///< where the last bones end (left)
+  std::array<Vec3, 5> finger_ends{};                   ///< index, middle, ring, pinky, thumb (left)
   SolidGroup head_solids, neck_solids, torso_solids, arm_solids, hand_solids, leg_solids, foot_solids;
 
   float head(const Vec3& p) const;

@@ -52,9 +52,6 @@ struct Palette {
 
 RawMaterial clothMaterial(const std::string& name, const Vec3& linear_color);
 
-/// Eyes, brows and lashes on the triangles of `body`. main: brows; second: irises.
-MadeGarment makeFaceDetails(const Figure& figure, const FieldMesh& body, const Palette& palette);
-
 /// The designs. What `second` colours is told per design.
 GarmentDesign designTshirt(const Figure& figure, const Palette& palette);
 GarmentDesign designShirt(const Figure& figure, const Palette& palette);  // second: tie

@@ -15,6 +15,11 @@ Solid skullShell(const Figure& f, const Vec3& center, const Vec3& radii) {
   return Solid::ellipsoid(fromHead(f, center), radii * f.head_size);
 }
 
+/// Hair over the forehead, which stands out before the skull.
+void joinForehead(SolidGroup& hair, const Figure& f) {
+  hair.join(skullShell(f, {0.0f, 0.034f, 0.022f}, {0.0670f, 0.0665f, 0.0725f}), 0.03f * f.head_size);
+}
+
 SkinBinding onHeadOnly() {
   SkinBinding skin;
   skin.joints[0] = kHead;
@@ -67,6 +72,7 @@ GarmentDesign designShortHair(const Figure& f, const Palette& palette) {
   SolidGroup hair;
   const float size = f.head_size;
   hair.join(skullShell(f, {0.0f, 0.012f, -0.012f}, {0.0835f, 0.0955f, 0.1045f}), 0.0f);
+  joinForehead(hair, f);
   hair.join(skullShell(f, {0.012f, 0.062f, 0.022f}, {0.060f, 0.042f, 0.062f}), 0.03f * size);
   design.symmetric = false;
   design.shell = [&f, hair, size](const Vec3& p) {
@@ -86,6 +92,7 @@ GarmentDesign designBob(const Figure& f, const Palette& palette) {
   const float size = f.head_size;
   SolidGroup hair;
   hair.join(skullShell(f, {0.0f, 0.014f, -0.012f}, {0.090f, 0.098f, 0.110f}), 0.0f);
+  joinForehead(hair, f);
   const LoftFrame frame{f.head_center, Mat3(1.0f)};
   const auto row = [size](float y, float z, float side, float front, float back) {
     return LoftRow{y * size, 0, z * size, side * size, front * size, back * size};
@@ -118,6 +125,7 @@ GarmentDesign designBun(const Figure& f, const Palette& palette) {
   const float size = f.head_size;
   SolidGroup hair;
   hair.join(skullShell(f, {0.0f, 0.010f, -0.011f}, {0.0815f, 0.0955f, 0.1035f}), 0.0f);
+  joinForehead(hair, f);
   SolidGroup knot;
   knot.join(skullShell(f, {0.0f, 0.072f, -0.100f}, {0.037f, 0.034f, 0.032f}), 0.0f);
   design.shell = [&f, hair, knot, size](const Vec3& p) {
@@ -140,6 +148,7 @@ GarmentDesign designPonytail(const Figure& f, const Palette& palette) {
   const float size = f.head_size;
   SolidGroup hair;
   hair.join(skullShell(f, {0.0f, 0.010f, -0.011f}, {0.0825f, 0.0960f, 0.1040f}), 0.0f);
+  joinForehead(hair, f);
   const auto at = [&f](float y, float z) { return fromHead(f, Vec3(0.0f, y, z)); };
   SolidGroup tail;
   tail.join(Solid::roundCone(at(0.052f, -0.110f), at(0.062f, -0.140f), 0.018f * size, 0.020f * size), 0.0f);

@@ -130,6 +130,7 @@ Vec3 linearFromSrgb(const Vec3& srgb) {
 
 std::span<const NamedColor> skinTones() { return kSkinTones; }
 std::span<const NamedColor> hairColors() { return kHairColors; }
+Vec3 greyHair() { return kHairColors.back().srgb; }
 
 PersonColors pickColors(std::uint64_t seed) {
   const auto pick = [seed](std::span<const NamedColor> colors, Stream stream) {

@@ -8,14 +8,9 @@
 #include <vector>
 
 #include "assetpipe/people_garments.h"
+#include "assetpipe/people_skin.h"
 
 namespace ensemble {
-
-/// Linear colours of a person's skin and hair.
-struct PersonColors {
-  Vec3 skin{0.60f, 0.36f, 0.26f};
-  Vec3 hair{0.06f, 0.03f, 0.02f};
-};
 
 /// Linear colour of an sRGB one, each 0 .. 1.
 Vec3 linearFromSrgb(const Vec3& srgb);
@@ -27,6 +22,7 @@ struct NamedColor {
 };
 std::span<const NamedColor> skinTones();
 std::span<const NamedColor> hairColors();
+Vec3 greyHair();  ///< the one among them that old people have, sRGB
 PersonColors pickColors(std::uint64_t seed);
 
 /// An outfit as the names of its garments, in the order of the file's nodes.

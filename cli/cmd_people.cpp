@@ -31,6 +31,7 @@ nlohmann::ordered_json figuresOf(const MadePerson& person) {
                                     {"body_faces", faceCount(person.body.meshes.front())},
                                     {"joints", person.body.skeleton.joints.size()},
                                     {"walk_speed", person.walk_speed},
+                                    {"run_speed", person.run_speed},
                                     {"outfits", nlohmann::ordered_json::array()}};
   for (const MadeOutfit& outfit : person.outfits) {
     nlohmann::ordered_json entry = {{"name", outfit.name},
@@ -69,7 +70,9 @@ void run(const PeopleArguments& arguments) {
 void addPeopleCommand(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("people", "Make template people and outfits from a few parameters");
   const auto arguments = std::make_shared<PeopleArguments>();
-  command.add_option("CONFIG", arguments->config, "Who to make (docs/people.md)")
+  command
+      .add_option("CONFIG", arguments->config,
+                  "Who to make: names, sex, age, height, girth, build, colours, outfits (docs/people.md)")
       ->required()
       ->type_name("FILE.yaml");
   command

@@ -46,7 +46,9 @@ constexpr Manual kManuals[] = {
      "SCENE is described in docs/scene.md; no picture is written. What is written is described in "
      "docs/measuring.md."},
     {"people", "Makes template people, with outfits and clips, from parameters.",
-     "CONFIG is described in docs/people.md. DIR/NAME gets template.glb, outfits/ and unfitted/."},
+     "CONFIG tells of each person sex, age (young, adult or old), height (1.4 to 2.1 metres), girth and "
+     "build (-1 "
+     "to 1), colours and outfits: docs/people.md. DIR/NAME gets template.glb, outfits/ and unfitted/."},
 };
 
 /// Text broken at spaces into lines of at most kColumns, each after `indent`.

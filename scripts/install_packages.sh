@@ -15,7 +15,7 @@ set -euo pipefail
 build_packages=(
   build-essential cmake ninja-build pkg-config ccache
   libvulkan-dev mesa-vulkan-drivers glslang-tools
-  libavcodec-dev libavformat-dev libavutil-dev libcli11-dev libdraco-dev libembree-dev libfmt-dev libglm-dev
+  libavcodec-dev libavformat-dev libavutil-dev libcgal-dev libcli11-dev libdraco-dev libembree-dev libfmt-dev libglm-dev
   libjpeg62-turbo-dev libmeshoptimizer-dev libopenexr-dev libpng-dev libspdlog-dev libssl-dev
   libswscale-dev libtinygltf-dev libvalijson-dev libyaml-cpp-dev nlohmann-json3-dev
 )

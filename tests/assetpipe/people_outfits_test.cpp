@@ -86,7 +86,8 @@ void expectFittedBodiesAreParts(const MadePerson& made) {
   }
   for (const MadeOutfit& outfit : made.outfits) {
     EXPECT_EQ(faceCount(outfit.unfitted.meshes.front()), faceCount(made.body.meshes.front()));
-    EXPECT_LT(faceCount(outfit.fitted.meshes.front()), faceCount(made.body.meshes.front()) * 4 / 5)
+    // Half the faces are of head, hands and feet; a summer dress hides 20 % of all.
+    EXPECT_LT(faceCount(outfit.fitted.meshes.front()), faceCount(made.body.meshes.front()) * 5 / 6)
         << outfit.name;
     bool head_is_full = false;
     for (const RawPrimitive& primitive : outfit.fitted.meshes.front().primitives) {
