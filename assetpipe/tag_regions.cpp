@@ -13,6 +13,7 @@
 #include "assetpipe/segment.h"
 #include "core/check.h"
 #include "core/input_error.h"
+#include "core/nearest_name.h"
 
 namespace ensemble {
 namespace {
@@ -83,9 +84,14 @@ class OutfitTagger {
     if (!ensemble.is_object()) return;
     const json slot = ensemble.value("slot", json()), layer = ensemble.value("layer", json());
     if (!slot.is_null()) {
-      if (!slot.is_string() || slot.get_ref<const std::string&>().empty())
-        fail("/scenes", "the custom property 'slot' is no text", "set a name");
-      item_.slot = slot;
+      const std::optional<Slot> known_slot = parseSlot(slot.is_string() ? slot.get<std::string>() : "");
+      if (!known_slot) {
+        fail("/scenes",
+             slot.is_string() ? "the custom property 'slot' is " + quotedName(slot.get<std::string>())
+                              : "the custom property 'slot' is no text",
+             "set " + slotNames());
+      }
+      item_.slot = *known_slot;
     }
     if (!layer.is_null()) {
       if (!layer.is_number_integer() || layer < -1000 || layer > 1000) {
