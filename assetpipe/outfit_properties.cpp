@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "core/input_error.h"
 #include "core/nearest_name.h"
+#include "core/slots.h"
 
 namespace ensemble {
 namespace {
@@ -46,9 +48,13 @@ class PropertyReader {
   void readSlot(OutfitProperties& properties) const {
     const Json slot = own_.value("slot", Json()), layer = own_.value("layer", Json());
     if (!slot.is_null()) {
-      if (!slot.is_string() || slot.get_ref<const std::string&>().empty())
-        fail("the custom property 'slot' is no text", "set a name");
-      properties.slot = slot;
+      const std::optional<Slot> known = parseSlot(slot.is_string() ? slot.get<std::string>() : "");
+      if (!known) {
+        fail(slot.is_string() ? "the custom property 'slot' is " + quotedName(slot.get<std::string>())
+                              : "the custom property 'slot' is no text",
+             "set " + slotNames());
+      }
+      properties.slot = *known;
     }
     if (!layer.is_null()) {
       if (!layer.is_number_integer() || layer < -1000 || layer > 1000) {

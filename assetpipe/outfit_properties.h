@@ -18,7 +18,7 @@ enum class Occlusion : std::uint8_t {
 };
 
 struct OutfitProperties {
-  std::string slot = Item().slot;
+  Slot slot = Item().slot;
   int layer = Item().layer;
   Occlusion occlusion = Occlusion::kAuthored;
   std::vector<RegionId> keep, hide;  ///< regions that show, or don't, whatever else is found

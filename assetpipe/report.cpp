@@ -7,27 +7,26 @@
 namespace ensemble {
 namespace {
 
-/// The template's whole part, as naive and tagged storage hold it once for all outfits.
-bool isGeneric(const IndexList& list, const TemplateBody& body) {
-  if (!list.is_template) return false;
-  const auto holds_first = [&](const BodyPart& part) {
-    return list.source_faces[0] >= part.first_face &&
-           list.source_faces[0] - part.first_face < part.face_count;
-  };
-  const auto part = std::find_if(body.parts.begin(), body.parts.end(), holds_first);
-  return list.source_faces.size() == part->face_count;
+/// The lists of naive storage, which tagged storage holds once for all outfits, too: by their faces.
+std::set<std::vector<std::uint32_t>> genericLists(const SubMeshLists& naive) {
+  std::set<std::vector<std::uint32_t>> generic;
+  for (const IndexList& list : naive.index_lists) {
+    if (list.is_template) generic.insert(list.source_faces);
+  }
+  return generic;
 }
 
 /// Sorts the lists of one technique by what they are for.
 class ListCosts {
  public:
-  ListCosts(const SubMeshLists& lists, const TemplateBody& body) : lists_(lists) {
+  ListCosts(const SubMeshLists& lists, const std::set<std::vector<std::uint32_t>>& generic) : lists_(lists) {
     part_of_list_.assign(lists.index_lists.size(), &StoredParts::body);
     part_of_mesh_.assign(lists.meshes.size(), &StoredParts::body);
     for (const SubMesh& sub_mesh : lists.sub_meshes) {
       const IndexList& list = lists.index_lists[sub_mesh.list];
       const bool is_garment = sub_mesh.kind == SubMeshKind::kGarment;
-      const bool is_shared = lists.technique != Technique::kPrefitted && isGeneric(list, body);
+      const bool is_shared =
+          lists.technique != Technique::kPrefitted && list.is_template && generic.contains(list.source_faces);
       part_of_list_[sub_mesh.list.value] = is_garment  ? &StoredParts::garments
                                            : is_shared ? &StoredParts::body
                                                        : &StoredParts::fitted;
@@ -146,10 +145,11 @@ Report makeReport(const Wardrobe& wardrobe, std::uint64_t extrapolate_to) {
   }
   report.faces = countStoredFaces(report.template_faces, report.outfits);
   report.outfit_bytes.resize(combinations.size());
+  const auto generic = genericLists(buildSubMeshLists(wardrobe, combinations, Technique::kNaive));
   for (const Technique technique : kAllTechniques) {
     const auto t = static_cast<std::size_t>(technique);
     const SubMeshLists lists = buildSubMeshLists(wardrobe, combinations, technique);
-    const ListCosts costs(lists, wardrobe.body);
+    const ListCosts costs(lists, generic);
     report.bytes[t] = lists.meshBytes();
     report.byte_parts[t] = costs.total();
     for (std::size_t c = 0; c < combinations.size(); ++c) report.outfit_bytes[c][t] = costs.of(c);
@@ -158,6 +158,7 @@ Report makeReport(const Wardrobe& wardrobe, std::uint64_t extrapolate_to) {
   if (extrapolate_to > 0) {
     report.extrapolation = extrapolate(report.template_faces, report.outfits, extrapolate_to);
   }
+  report.combinations = countWardrobe(wardrobe);
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "assetpipe/combination_storage.h"
 #include "core/sub_mesh_lists.h"
 #include "core/wardrobe.h"
 
@@ -82,6 +83,7 @@ struct Report {
   std::vector<TechniqueParts> outfit_bytes;
   std::uint64_t lower_bound_bytes = 0;
   std::optional<Extrapolation> extrapolation;
+  WardrobeCombinations combinations;  ///< where items are combined
 };
 
 /// Counts a wardrobe; bytes are those of the lists that the renderer draws. `extrapolate_to`: number
@@ -90,6 +92,8 @@ Report makeReport(const Wardrobe& wardrobe, std::uint64_t extrapolate_to = 0);
 
 nlohmann::ordered_json toJson(const Report& report);  ///< "ensemble.report/1"
 std::string toTable(const Report& report);            ///< for people, with a newline at the end
+nlohmann::ordered_json toJson(const CombinationStorage& stored);
+std::string toTable(const CombinationStorage& stored);
 /// One table: a row for each technique of every outfit, of the total and of every number of outfits of
 /// the extrapolation (`kind` as in the JSON, `name` the number), and the lower bound. A field without
 /// a meaning is empty.

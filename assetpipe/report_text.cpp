@@ -87,6 +87,29 @@ std::string extrapolationText(const Extrapolation& extrapolation) {
   return text + "\n";
 }
 
+Json toJson(const WardrobeCombinations& combinations) {
+  Json items = Json::object();
+  for (const Slot slot : kAllSlots) items[toString(slot)] = combinations.items[slot];
+  return {{"items", std::move(items)},
+          {"count", combinations.count ? Json(*combinations.count) : Json(nullptr)},
+          {"stored", combinations.stored ? ensemble::toJson(*combinations.stored) : Json(nullptr)}};
+}
+
+/// Nothing for a wardrobe of complete outfits, which are not combined.
+std::string combinationsText(const WardrobeCombinations& combinations) {
+  std::string items;
+  for (const Slot slot : kAllSlots) {
+    if (combinations.items[slot] == 0) continue;
+    items += fmt::format("{}{} {}", items.empty() ? "" : ", ", combinations.items[slot], toString(slot));
+  }
+  if (items.find(',') == std::string::npos) return "";
+  const std::string count = combinations.count ? std::to_string(*combinations.count) : "2^64 or more";
+  return fmt::format("\n{} combinations of {}\n", count, items) +
+         (combinations.stored
+              ? toTable(*combinations.stored)
+              : fmt::format("with more than {} different visible bodies\n", kMostVisibleBodies));
+}
+
 /// Faces of the three techniques over all outfits, by what they are for.
 TechniqueParts totalFaceParts(const Report& report) {
   TechniqueParts total{{{report.template_faces, 0, 0}, {}, {report.template_faces, 0, 0}}};
@@ -155,6 +178,7 @@ nlohmann::ordered_json toJson(const Report& report) {
                   {"outfits", std::move(outfits)},
                   {"techniques", std::move(techniques)},
                   {"lower_bound_bytes", report.lower_bound_bytes}};
+  figures["combinations"] = toJson(report.combinations);
   if (report.extrapolation) figures["extrapolated"] = toJson(*report.extrapolation, report.outfits.size());
   return figures;
 }
@@ -183,6 +207,29 @@ std::string toTable(const Report& report) {
   }
   text += fmt::format("{:<12} {:>10} {:>10} {:>14}\n", "lower bound", "", "", report.lower_bound_bytes);
   if (report.extrapolation) text += extrapolationText(*report.extrapolation);
+  return text + combinationsText(report.combinations);
+}
+
+nlohmann::ordered_json toJson(const CombinationStorage& stored) {
+  return {{"visible_bodies", stored.visible_bodies},
+          {"dedicated_sub_meshes", stored.dedicated_sub_meshes},
+          {"lower_bound_bytes", stored.lower_bound_bytes},
+          {"tagged_bytes", stored.tagged_bytes},
+          {"prefitted_bytes", stored.prefitted_bytes},
+          {"tagged_vs_lower_bound", ratio(stored.tagged_bytes, stored.lower_bound_bytes)},
+          {"prefitted_vs_tagged", ratio(stored.prefitted_bytes, stored.tagged_bytes)}};
+}
+
+std::string toTable(const CombinationStorage& stored) {
+  std::string text = fmt::format("{} different visible bodies, {} dedicated sub-meshes\n",
+                                 stored.visible_bodies, stored.dedicated_sub_meshes);
+  const auto row = [&](const char* name, std::uint64_t bytes) {
+    text += fmt::format("{:<24} {:>14} {:>8.3f} x\n", name, bytes, ratio(bytes, stored.lower_bound_bytes));
+  };
+  text += fmt::format("{:<24} {:>14}\n", "stored", "mesh bytes");
+  row("template and items once", stored.lower_bound_bytes);
+  row("tagged", stored.tagged_bytes);
+  row("prefitted", stored.prefitted_bytes);
   return text;
 }
 

@@ -109,13 +109,13 @@ Findings inspectWardrobe(const std::string& folder) {
       names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", garment.name, faces);
     }
     found.json["outfits"].push_back({{"name", item.name},
-                                     {"slot", item.slot},
+                                     {"slot", toString(item.slot)},
                                      {"layer", item.layer},
                                      {"file", wardrobe.item_files[ItemId(i)]},
                                      {"garments", garments},
                                      {"visible_body_faces", item.visibleBodyFaceCount()}});
-    found.text += fmt::format("outfit {} (slot {}, layer {}): {}; {} body faces show\n", item.name, item.slot,
-                              item.layer, names, item.visibleBodyFaceCount());
+    found.text += fmt::format("outfit {} (slot {}, layer {}): {}; {} body faces show\n", item.name,
+                              toString(item.slot), item.layer, names, item.visibleBodyFaceCount());
   }
   return found;
 }

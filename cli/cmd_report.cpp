@@ -1,4 +1,6 @@
-// `ensemble report`: what tagging saves.
+// `ensemble report`: what tagging saves, of a wardrobe or of what a scene's people wear.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -6,7 +8,10 @@
 #include "assetpipe/report.h"
 #include "cli/command.h"
 #include "cli/report_page.h"
+#include "cli/scene_run.h"
 #include "core/atomic_file.h"
+#include "core/input_error.h"
+#include "renderer/crowd.h"
 
 namespace ensemble::cli {
 namespace {
@@ -14,6 +19,7 @@ namespace {
 struct ReportArguments {
   CommonOptions common;
   std::string wardrobe, csv_file, html_file;
+  std::vector<std::string> overrides;
   std::uint64_t extrapolate = 0;
 };
 
@@ -22,7 +28,72 @@ std::string folderName(const std::filesystem::path& folder) {
   return std::filesystem::weakly_canonical(folder).filename().string();
 }
 
+/// What one wardrobe's people wear.
+struct Worn {
+  std::vector<Combination> combinations;
+  std::uint64_t people = 0;
+};
+
+std::vector<Worn> wornIn(const Scene& scene, std::span<const Wardrobe> wardrobes) {
+  const Crowd crowd = populateCrowd(scene, wardrobes);
+  std::vector<Worn> worn(wardrobes.size());
+  for (const WornCombination& one : crowd.combinations) worn[one.wardrobe].combinations.push_back(one.items);
+  for (const Character& person : crowd.characters) ++worn[person.wardrobe].people;
+  return worn;
+}
+
+void runScene(const ReportArguments& arguments) {
+  const Scene scene = loadSceneOf({.scene = arguments.wardrobe, .overrides = arguments.overrides});
+  const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
+  const std::vector<Worn> worn = wornIn(scene, wardrobes);
+  nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+  CombinationStorage total;
+  std::uint64_t people = 0, combinations = 0;
+  for (std::size_t w = 0; w < wardrobes.size(); ++w) {
+    const CombinationStorage stored = storeCombinations(wardrobes[w], worn[w].combinations);
+    total += stored;
+    people += worn[w].people;
+    combinations += worn[w].combinations.size();
+    parts.push_back({{"key", scene.wardrobes[w].key},
+                     {"folder", scene.wardrobes[w].folder.string()},
+                     {"people", worn[w].people},
+                     {"combinations", worn[w].combinations.size()},
+                     {"stored", toJson(stored)}});
+  }
+  writeFigures(arguments.common, {{"schema", "ensemble.scene_report/1"},
+                                  {"scene", arguments.wardrobe},
+                                  {"people", people},
+                                  {"combinations", combinations},
+                                  {"wardrobes", std::move(parts)},
+                                  {"stored", toJson(total)}});
+  printResult(arguments.common,
+              fmt::format("{} people in {} combinations\n", people, combinations) + toTable(total));
+}
+
+/// Options that mean nothing for a scene, or only for one.
+void checkOptions(const ReportArguments& arguments, bool is_scene) {
+  const auto refuse = [](const char* option, const char* what, const char* mend) {
+    throw UsageError({"", option, what, mend});
+  };
+  constexpr const char* kWardrobeOnly = "a scene is reported as text and JSON only";
+  constexpr const char* kGiveWardrobe = "give the folder of a wardrobe, or leave the option out";
+  if (is_scene && !arguments.csv_file.empty()) refuse("--csv", kWardrobeOnly, kGiveWardrobe);
+  if (is_scene && !arguments.html_file.empty()) refuse("--html", kWardrobeOnly, kGiveWardrobe);
+  if (is_scene && arguments.extrapolate > 0) refuse("--extrapolate", kWardrobeOnly, kGiveWardrobe);
+  if (!is_scene && !arguments.overrides.empty()) {
+    refuse("--set", "a wardrobe has no keys to set", "give a scene, or leave the option out");
+  }
+}
+
 void run(const ReportArguments& arguments) {
+  const std::string ending = std::filesystem::path(arguments.wardrobe).extension().string();
+  const bool is_scene =
+      (ending == ".yaml" || ending == ".yml") && !std::filesystem::is_directory(arguments.wardrobe);
+  checkOptions(arguments, is_scene);
+  if (is_scene) {
+    runScene(arguments);
+    return;
+  }
   const Wardrobe wardrobe = loadWardrobe(arguments.wardrobe);
   const Report report = makeReport(wardrobe, arguments.extrapolate);
   nlohmann::ordered_json figures = toJson(report);
@@ -42,9 +113,17 @@ void addReportCommand(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("report", "Compare the storage of naive, pre-fitted and tagged outfits");
   const auto arguments = std::make_shared<ReportArguments>();
-  command.add_option("WARDROBE", arguments->wardrobe, "The wardrobe's folder")
+  command
+      .add_option(
+          "WARDROBE", arguments->wardrobe,
+          "The wardrobe's folder; or a scene (.yaml): what the combinations that its people wear store")
       ->required()
-      ->type_name("FOLDER");
+      ->type_name("FOLDER|SCENE");
+  command
+      .add_option("--set", arguments->overrides,
+                  "Override a key of the scene, e.g. crowd.count=200; may be given several times")
+      ->type_name("KEY.PATH=VALUE")
+      ->allow_extra_args(false);
   command.add_option("--csv", arguments->csv_file, "Write the figures as one CSV table (default: none)")
       ->type_name("FILE");
   command

@@ -28,8 +28,12 @@ constexpr Manual kManuals[] = {
      "garments), "
      "pre-fitted (a body cut to size for every outfit) and tagged (template, garments, and dedicated "
      "sub-meshes "
-     "for regions that show in part). Needs no Vulkan device.",
-     "WARDROBE is a folder made by `ensemble tag`. What is written is described in docs/measuring.md."},
+     "for regions that show in part). Single items are counted in all their combinations. Of a scene: what "
+     "the "
+     "combinations that its people wear store. Needs no Vulkan device.",
+     "WARDROBE is a folder made by `ensemble tag`, or a scene (docs/scene.md). What is written is described "
+     "in "
+     "docs/measuring.md."},
     {"inspect",
      "Tells what is in a GLB, a wardrobe or a scene, and with --visible which faces of the body show.",
      "The file is only read."},

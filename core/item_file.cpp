@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "core/input_error.h"
+#include "core/nearest_name.h"
 #include "core/wardrobe_files.h"
 
 namespace ensemble {
@@ -76,7 +77,7 @@ json itemExtras(const Item& item, const TemplateBody& body, const std::string& g
   for (const ExtraBodyPart& part : item.extra_body) extra.push_back(body.regions[part.region].name);
   return {{"schema", kItemSchema},
           {"name", item.name},
-          {"slot", item.slot},
+          {"slot", toString(item.slot)},
           {"layer", item.layer},
           {"template", {{"geometry_hash", geometry_hash}, {"faces", body.faces.size()}}},
           {"garments", std::move(garments)},
@@ -99,10 +100,12 @@ class ItemReader {
   Item read(const std::string& geometry_hash) {
     checkTemplate(geometry_hash);
     item_.name = text("name");
-    item_.slot = text("slot");
+    const std::string slot = text("slot");
     item_.layer = static_cast<int>(number(extras_, "layer", "/layer"));
     if (!isValidItemName(item_.name)) fail("/name", "'" + item_.name + "' can't be an outfit's name");
-    if (item_.slot.empty() || item_.slot.size() > 100) fail("/slot", "the slot has no sensible name");
+    const std::optional<Slot> known_slot = parseSlot(slot);
+    if (!known_slot) fail("/slot", quotedName(slot) + " is no slot: not " + slotNames());
+    item_.slot = *known_slot;
     if (item_.layer < -1000 || item_.layer > 1000) fail("/layer", "the layer is out of range");
     item_.materials = asset_.materials;
     item_.images = asset_.images;

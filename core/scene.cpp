@@ -107,8 +107,41 @@ std::vector<WeightedName> readWeights(const YamlValue& value) {
   return weights;
 }
 
+void readSlotWeights(const YamlValue& value, Slot slot, SceneCrowd& crowd) {
+  crowd.wear.push_back({slot, readWeights(value), value.mark()});
+  if (isOptional(slot) || slot == Slot::kFull) return;
+  if (const auto none = value.find("none")) {
+    none->fail(fmt::format("{}: who wears nothing full needs an item of '{}'", none->path(), toString(slot)),
+               "remove it");
+  }
+}
+
+void readWear(const YamlValue& value, SceneCrowd& crowd) {
+  if (!crowd.outfits.empty()) {
+    value.fail("crowd.outfits and crowd.wear both tell what people wear", "remove one of them");
+  }
+  value.expectKeys({"hair", "head", "upper", "lower", "full", "feet", "over"});
+  for (const Slot slot : kAllSlots) {
+    if (const auto weights = value.find(toString(slot))) readSlotWeights(*weights, slot, crowd);
+  }
+  const auto full = value.find("full"), half = value.find(value.find("upper") ? "upper" : "lower");
+  const bool leaves_some = full && full->find("none") && full->find("none")->number(kWeightRange) > 0.0;
+  if (full && half && !leaves_some) {
+    half->fail(
+        fmt::format("{} is never worn: crowd.wear.full leaves nobody without an item of it", half->path()),
+        "add 'none: WEIGHT' to crowd.wear.full, or remove the key");
+  }
+}
+
+std::vector<Marked<std::string>> readWears(const YamlValue& value) {
+  std::vector<Marked<std::string>> names;
+  for (const YamlValue& item : value.items("a list of items"))
+    names.push_back(readName(item, "an item's name"));
+  return names;
+}
+
 void readCrowd(const YamlValue& value, const std::filesystem::path& base, SceneCrowd& crowd) {
-  value.expectKeys({"count", "seed", "wardrobes", "placement", "outfits", "clips", "scale"});
+  value.expectKeys({"count", "seed", "wardrobes", "placement", "outfits", "wear", "clips", "scale"});
   if (const auto placement = value.find("placement")) readPlacement(*placement, base, crowd.placement);
   crowd.count.reset();
   if (const auto count = value.find("count")) {
@@ -119,6 +152,7 @@ void readCrowd(const YamlValue& value, const std::filesystem::path& base, SceneC
   if (const auto seed = value.find("seed")) crowd.seed = seed->wholeNumber(0, UINT64_MAX);
   if (const auto wardrobes = value.find("wardrobes")) crowd.wardrobes = readWeights(*wardrobes);
   if (const auto outfits = value.find("outfits")) crowd.outfits = readWeights(*outfits);
+  if (const auto wear = value.find("wear")) readWear(*wear, crowd);
   if (const auto clips = value.find("clips")) crowd.clips = readWeights(*clips);
   if (const auto scale = value.find("scale")) {
     crowd.scale = readSpan(*scale, kScaleRange);
@@ -127,13 +161,20 @@ void readCrowd(const YamlValue& value, const std::filesystem::path& base, SceneC
 }
 
 ScenePerson readPerson(const YamlValue& value) {
-  value.expectKeys({"wardrobe", "outfit", "clip", "phase", "speed", "position", "heading", "scale", "tint"});
+  value.expectKeys(
+      {"wardrobe", "outfit", "wears", "clip", "phase", "speed", "position", "heading", "scale", "tint"});
   ScenePerson person;
   person.mark = value.mark();
   if (const auto wardrobe = value.find("wardrobe")) {
     person.wardrobe = readName(*wardrobe, "the key of a wardrobe");
   }
   if (const auto outfit = value.find("outfit")) person.outfit = readName(*outfit, "an outfit's name");
+  if (const auto wears = value.find("wears")) {
+    if (!person.outfit.value.empty()) {
+      wears->fail("the person has an outfit and wears something else", "remove 'outfit' or 'wears'");
+    }
+    person.wears = readWears(*wears);
+  }
   if (const auto clip = value.find("clip")) person.clip = readName(*clip, "a clip's name");
   if (const auto phase = value.find("phase")) person.phase = phase->numberFloat(kShareRange);
   if (const auto speed = value.find("speed")) person.speed = speed->numberFloat(kSpeedRange);

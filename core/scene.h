@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "core/slots.h"
 #include "core/source_mark.h"
 #include "core/sub_mesh_lists.h"
 
@@ -78,24 +79,34 @@ struct WeightedName {
   SourceMark mark;
 };
 
+/// How often the items of a slot are worn.
+struct SceneWear {
+  Slot slot = Slot::kFull;
+  std::vector<WeightedName> items;  ///< bare or KEY/NAME, or `none`
+  SourceMark mark;
+};
+
 struct SceneCrowd {
   /// kFile, kTable: none means all of the file.
   std::optional<std::uint32_t> count = 0;
   std::uint64_t seed = 1;
   std::vector<WeightedName> wardrobes;  ///< by key; empty: all alike
   ScenePlacement placement;
-  std::vector<WeightedName> outfits;       ///< bare or KEY/NAME; empty: all of each wardrobe alike
+  /// Bare or KEY/NAME, items joined by '+'. Empty: combined from `wear`.
+  std::vector<WeightedName> outfits;
+  std::vector<SceneWear> wear;             ///< each slot once; one that is left out: its items alike
   std::vector<WeightedName> clips;         ///< empty: the first clip of each wardrobe
   std::array<float, 2> scale{1.0f, 1.0f};  ///< uniform between the two
   SourceMark scale_mark;                   ///< without a key path where the scene has no such key
 };
 
 struct ScenePerson {
-  Marked<std::string> wardrobe;  ///< key; empty where there is one
-  Marked<std::string> outfit;    ///< empty: the bare body
-  Marked<std::string> clip;      ///< empty: the first clip
-  float phase = 0.0f;            ///< part of the clip that has run at time 0
-  float speed = 1.0f;            ///< factor on the clip's speed
+  Marked<std::string> wardrobe;            ///< key; empty where there is one
+  Marked<std::string> outfit;              ///< an item, or several joined by '+'; empty: the bare body
+  std::vector<Marked<std::string>> wears;  ///< items, in place of `outfit`
+  Marked<std::string> clip;                ///< empty: the first clip
+  float phase = 0.0f;                      ///< part of the clip that has run at time 0
+  float speed = 1.0f;                      ///< factor on the clip's speed
   Vec3 position{0.0f};
   float heading = 0.0f;  ///< radians about +Y: 0 looks along +Z, 90 degrees along +X
   float scale = 1.0f;

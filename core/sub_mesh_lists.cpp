@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <numeric>
 
+#include "core/body_split.h"
 #include "core/check.h"
 #include "core/hash.h"
 
@@ -18,24 +18,6 @@ namespace ensemble {
 namespace {
 
 constexpr std::size_t kMaxNarrowVertices = 65536;
-
-std::uint16_t toUnorm16(float value) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 65535.0f));
-}
-
-std::int16_t toSnorm16(float value) {
-  return static_cast<std::int16_t>(std::lround(std::clamp(value, -1.0f, 1.0f) * 32767.0f));
-}
-
-/// Octahedral coordinates of a unit vector (Meyer et al. 2010); shaders/shared/vertex.h decodes.
-Vec2 encodeOctahedral(Vec3 normal) {
-  const float sum = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-  if (!(sum > 0.0f)) return {0.0f, 0.0f};
-  normal /= sum;
-  if (normal.z >= 0.0f) return {normal.x, normal.y};
-  return {(1.0f - std::abs(normal.y)) * (normal.x >= 0.0f ? 1.0f : -1.0f),
-          (1.0f - std::abs(normal.x)) * (normal.y >= 0.0f ? 1.0f : -1.0f)};
-}
 
 /// Numbers of the faces in an order that reuses vertices soon. Meshoptimizer reorders triangles but
 /// keeps their corners, so each is found again by them; equal triangles keep their order.
@@ -70,17 +52,23 @@ class ListsBuilder {
     lists_.combinations.assign(combinations.begin(), combinations.end());
     lists_.shown.resize(combinations.size());
   }
-
   SubMeshLists build() {
+    for (const Combination& combination : lists_.combinations) addVisibleFaces(combination);
     orderTemplateFaces();
-    findVisibleFaces();
-    for (std::size_t c = 0; c < visible_.size(); ++c) addGarments(c);
-    for (std::size_t c = 0; c < visible_.size(); ++c) addExtraBody(c);
+    const std::size_t count = lists_.combinations.size();
+    for (std::size_t c = 0; c < count; ++c) {
+      for (const ItemId item : lists_.combinations[c]) showAll(c, garmentsOf(item));
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      for (const ItemId item : lists_.combinations[c]) showAll(c, extraBodyOf(item));
+    }
+    body_sub_meshes_.resize(visible_.size());
     if (lists_.technique == Technique::kPrefitted) {
       addPrefittedBodies();
     } else {
       addTemplate();
     }
+    for (std::size_t c = 0; c < count; ++c) showAll(c, body_sub_meshes_[lists_.hidden_set[c]]);
     sortSubMeshes();
     return std::move(lists_);
   }
@@ -88,67 +76,90 @@ class ListsBuilder {
  private:
   using VisibleFaces = std::vector<std::uint8_t>;  ///< per template face
 
-  /// One order of the template's faces that every list is a subsequence of: parts one after the
-  /// other, vertex-cache order inside each.
+  /// One order of the template's faces that every list is a subsequence of.
   void orderTemplateFaces() {
+    std::vector<std::vector<std::uint32_t>> orders;
     for (const BodyPart& part : body_.parts) {
       const std::span faces(body_.faces.raw().data() + part.first_face, part.face_count);
       std::vector<std::uint32_t> order = vertexCacheOrder(faces, body_.vertices.size());
       for (std::uint32_t& face : order) face += part.first_face;
-      part_order_.push_back(std::move(order));
+      orders.push_back(std::move(order));
     }
+    parts_ = splitBody(body_, std::move(orders), visible_);
   }
 
-  void findVisibleFaces() {
-    for (const Combination& combination : lists_.combinations) {
-      VisibleFaces visible(body_.faces.size(), 1);
-      for (const ItemId item : combination) {
-        const auto& under_item = wardrobe_.items[item].visible.raw();
-        ENSEMBLE_CHECK(under_item.size() == visible.size());
-        for (std::size_t face = 0; face < visible.size(); ++face) visible[face] &= under_item[face];
-      }
-      std::vector<std::uint32_t> hidden((visible.size() + 31) / 32);
-      for (std::size_t face = 0; face < visible.size(); ++face) {
-        if (visible[face] == 0) hidden[face / 32] |= 1u << (face % 32);
-      }
-      lists_.hidden_bits.push_back(std::move(hidden));
+  /// The visible faces of a combination, stored once by content.
+  void addVisibleFaces(const Combination& combination) {
+    VisibleFaces visible(body_.faces.size(), 1);
+    for (const ItemId item : combination) {
+      const auto& under_item = wardrobe_.items[item].visible.raw();
+      ENSEMBLE_CHECK(under_item.size() == visible.size());
+      for (std::size_t face = 0; face < visible.size(); ++face) visible[face] &= under_item[face];
+    }
+    std::vector<std::uint32_t> hidden((visible.size() + 31) / 32);
+    for (std::size_t face = 0; face < visible.size(); ++face) {
+      if (visible[face] == 0) hidden[face / 32] |= 1u << (face % 32);
+    }
+    const auto next = static_cast<std::uint32_t>(visible_.size());
+    const auto [entry, is_new] = set_by_content_.try_emplace(hidden, next);
+    if (is_new) {
       visible_.push_back(std::move(visible));
+      lists_.hidden_sets.push_back(std::move(hidden));
     }
+    lists_.hidden_set.push_back(entry->second);
   }
 
-  void addGarments(std::size_t combination) {
-    for (const ItemId item_id : lists_.combinations[combination]) {
-      const Item& item = wardrobe_.items[item_id];
-      for (const Garment& garment : item.garments) {
-        std::uint32_t face_offset = 0;
-        for (const ItemPart& part : garment.parts) {
-          if (!part.faces.empty()) {
-            SubMesh sub_mesh{SubMeshKind::kGarment, addPart(part),
-                             addMaterial(item.materials[part.material], item.images, false),
-                             addGarmentName(garment.name), face_offset};
-            show(combination, sub_mesh, 0);
-          }
-          face_offset += static_cast<std::uint32_t>(part.faces.size());
+  /// The sub-meshes of an item's garments, made when first asked for.
+  const std::vector<SubMeshId>& garmentsOf(ItemId item_id) {
+    const auto [entry, is_new] = garments_of_item_.try_emplace(item_id);
+    if (!is_new) return entry->second;
+    const Item& item = wardrobe_.items[item_id];
+    for (const Garment& garment : item.garments) {
+      std::uint32_t face_offset = 0;
+      for (const ItemPart& part : garment.parts) {
+        if (!part.faces.empty()) {
+          const std::uint32_t material = addMaterial(item.materials[part.material], item.images, false);
+          const SubMesh sub_mesh{SubMeshKind::kGarment,
+                                 addPart(part),
+                                 material,
+                                 addGarmentName(garment.name),
+                                 face_offset,
+                                 item.slot,
+                                 item.slot == Slot::kFull ? material : mainMaterial(item)};
+          entry->second.push_back(addSubMesh(sub_mesh, 0));
         }
+        face_offset += static_cast<std::uint32_t>(part.faces.size());
       }
     }
+    return entry->second;
   }
 
-  /// Body faces that only this outfit has are its geometry in every technique. Their numbers follow
-  /// the template's.
-  void addExtraBody(std::size_t combination) {
-    for (const ItemId item_id : lists_.combinations[combination]) {
-      const Item& item = wardrobe_.items[item_id];
-      auto face_offset = static_cast<std::uint32_t>(body_.faces.size());
-      for (const ExtraBodyPart& extra : item.extra_body) {
-        if (extra.part.faces.empty()) continue;
-        SubMesh sub_mesh{SubMeshKind::kBody, addPart(extra.part),
-                         addMaterial(item.materials[extra.part.material], item.images, true),
-                         extra.region.value, face_offset};
-        show(combination, sub_mesh, 1);
-        face_offset += static_cast<std::uint32_t>(extra.part.faces.size());
-      }
+  /// The material of most of an item's faces.
+  std::uint32_t mainMaterial(const Item& item) {
+    std::map<std::uint32_t, std::size_t> faces;
+    for (const Garment& garment : item.garments) {
+      for (const ItemPart& part : garment.parts) faces[part.material] += part.faces.size();
     }
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const auto most = std::max_element(faces.begin(), faces.end(), fewer);
+    return addMaterial(item.materials[most->first], item.images, false);
+  }
+
+  /// Body faces that only an item has: its geometry in every technique. Numbers follow the template's.
+  const std::vector<SubMeshId>& extraBodyOf(ItemId item_id) {
+    const auto [entry, is_new] = extra_of_item_.try_emplace(item_id);
+    if (!is_new) return entry->second;
+    const Item& item = wardrobe_.items[item_id];
+    auto face_offset = static_cast<std::uint32_t>(body_.faces.size());
+    for (const ExtraBodyPart& extra : item.extra_body) {
+      if (extra.part.faces.empty()) continue;
+      const SubMesh sub_mesh{SubMeshKind::kBody, addPart(extra.part),
+                             addMaterial(item.materials[extra.part.material], item.images, true),
+                             extra.region.value, face_offset};
+      entry->second.push_back(addSubMesh(sub_mesh, 1));
+      face_offset += static_cast<std::uint32_t>(extra.part.faces.size());
+    }
+    return entry->second;
   }
 
   /// A part of an item becomes a mesh of its own, in vertex-cache order, renumbered by first use.
@@ -179,11 +190,11 @@ class ListsBuilder {
     return mesh;
   }
 
-  /// naive and tagged: the template once, a generic list per part; tagged: a dedicated list where a
-  /// combination shows some of a part's faces only.
+  /// naive and tagged: the template once, a generic list per part; tagged: dedicated lists of parts of one.
   void addTemplate() {
     std::vector<std::uint32_t> all_indices, all_faces;
-    for (const auto& order : part_order_) all_faces.insert(all_faces.end(), order.begin(), order.end());
+    for (const DrawPart& part : parts_)
+      all_faces.insert(all_faces.end(), part.faces.begin(), part.faces.end());
     Mesh mesh = takeVertices(body_.vertices.raw(), body_.faces.raw(), all_faces, all_indices);
     std::vector<Triangle> corners(body_.faces.size());  // by FaceId, in the mesh's numbers
     for (std::size_t i = 0; i < all_faces.size(); ++i) {
@@ -192,40 +203,40 @@ class ListsBuilder {
     const MeshId mesh_id = addMesh(std::move(mesh), all_indices);
 
     const VisibleFaces everything(body_.faces.size(), 1);
-    for (std::size_t p = 0; p < body_.parts.size(); ++p) {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
       const IndexListId generic = addTemplateList(mesh_id, p, everything, corners);
-      for (std::size_t c = 0; c < visible_.size(); ++c) {
-        const bool tagged = lists_.technique == Technique::kTagged;
-        const IndexListId list = tagged ? addTemplateList(mesh_id, p, visible_[c], corners) : generic;
-        showBodyPart(c, p, list);
+      std::map<std::string, IndexListId> lists_of_part;  // by visible faces: sets differ in few parts each
+      for (std::size_t set = 0; set < visible_.size(); ++set) {
+        IndexListId list = generic;
+        if (lists_.technique == Technique::kTagged) {
+          std::string shown;
+          for (const std::uint32_t face : parts_[p].faces) shown += visible_[set][face] != 0 ? '1' : '0';
+          const auto [entry, is_new] = lists_of_part.try_emplace(std::move(shown));
+          if (is_new) entry->second = addTemplateList(mesh_id, p, visible_[set], corners);
+          list = entry->second;
+        }
+        addBodyPart(set, p, list);
       }
     }
   }
 
   /// pre-fitted: every distinct visible body owns its vertices, compacted.
   void addPrefittedBodies() {
-    std::map<std::string, std::pair<MeshId, std::vector<Triangle>>> bodies;
-    for (std::size_t c = 0; c < visible_.size(); ++c) {
-      const std::string key = sha256Hex(bytesOf(visible_[c]));
-      auto found = bodies.find(key);
-      if (found == bodies.end()) {
-        std::vector<std::uint32_t> faces, indices;
-        for (const auto& order : part_order_) {
-          std::copy_if(order.begin(), order.end(), std::back_inserter(faces),
-                       [&](std::uint32_t face) { return visible_[c][face] != 0; });
-        }
-        if (faces.empty()) continue;
-        Mesh mesh = takeVertices(body_.vertices.raw(), body_.faces.raw(), faces, indices);
-        std::vector<Triangle> corners(body_.faces.size());
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-          corners[faces[i]] = {indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]};
-        }
-        const MeshId mesh_id = addMesh(std::move(mesh), indices);
-        found = bodies.emplace(key, std::pair(mesh_id, std::move(corners))).first;
+    for (std::size_t set = 0; set < visible_.size(); ++set) {
+      std::vector<std::uint32_t> faces, indices;
+      for (const DrawPart& part : parts_) {
+        std::copy_if(part.faces.begin(), part.faces.end(), std::back_inserter(faces),
+                     [&](std::uint32_t face) { return visible_[set][face] != 0; });
       }
-      const auto& [mesh_id, corners] = found->second;
-      for (std::size_t p = 0; p < body_.parts.size(); ++p) {
-        showBodyPart(c, p, addTemplateList(mesh_id, p, visible_[c], corners));
+      if (faces.empty()) continue;
+      Mesh mesh = takeVertices(body_.vertices.raw(), body_.faces.raw(), faces, indices);
+      std::vector<Triangle> corners(body_.faces.size());
+      for (std::size_t i = 0; i < faces.size(); ++i) {
+        corners[faces[i]] = {indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]};
+      }
+      const MeshId mesh_id = addMesh(std::move(mesh), indices);
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        addBodyPart(set, p, addTemplateList(mesh_id, p, visible_[set], corners));
       }
     }
   }
@@ -236,7 +247,7 @@ class ListsBuilder {
     IndexList list;
     list.mesh = mesh;
     list.is_template = true;
-    for (const std::uint32_t face : part_order_[part]) {
+    for (const std::uint32_t face : parts_[part].faces) {
       if (visible[face] == 0) continue;
       list.source_faces.push_back(face);
       list.indices.insert(list.indices.end(), corners[face].begin(), corners[face].end());
@@ -244,12 +255,12 @@ class ListsBuilder {
     return list.indices.empty() ? IndexListId::none() : addList(std::move(list));
   }
 
-  void showBodyPart(std::size_t combination, std::size_t part, IndexListId list) {
+  void addBodyPart(std::size_t set, std::size_t part, IndexListId list) {
     if (!list.valid()) return;
-    const std::uint32_t material =
-        addMaterial(body_.materials[body_.parts[part].material], body_.images, true);
-    show(combination, SubMesh{SubMeshKind::kBody, list, material, body_.parts[part].region.value, 0},
-         static_cast<std::uint32_t>(2 + part));
+    const BodyPart& of = body_.parts[parts_[part].part];
+    const std::uint32_t material = addMaterial(body_.materials[of.material], body_.images, true);
+    const SubMesh sub_mesh{SubMeshKind::kBody, list, material, of.region.value, 0};
+    body_sub_meshes_[set].push_back(addSubMesh(sub_mesh, static_cast<std::uint32_t>(2 + part)));
   }
 
   /// Content decides whether a mesh is new: its vertices, and the faces that use all of them.
@@ -298,19 +309,29 @@ class ListsBuilder {
         lists_.garment_names.begin());
   }
 
-  /// Lets a combination show a sub-mesh. `rank` says when it is drawn: garments, extra body faces,
-  /// then the template's parts, so that all techniques draw a character's faces in one order.
-  void show(std::size_t combination, const SubMesh& sub_mesh, std::uint32_t rank) {
-    const std::array<std::uint32_t, 5> key{sub_mesh.list.value, sub_mesh.material, sub_mesh.region,
+  /// `rank` is its place in the order of drawing, the same in all techniques.
+  SubMeshId addSubMesh(const SubMesh& sub_mesh, std::uint32_t rank) {
+    const std::array<std::uint32_t, 7> key{sub_mesh.list.value,
+                                           sub_mesh.material,
+                                           sub_mesh.region,
                                            sub_mesh.source_face_offset,
-                                           static_cast<std::uint32_t>(sub_mesh.kind)};
+                                           static_cast<std::uint32_t>(sub_mesh.kind),
+                                           static_cast<std::uint32_t>(sub_mesh.slot),
+                                           sub_mesh.main_material};
     const auto [entry, is_new] = sub_mesh_by_content_.try_emplace(key, SubMeshId(lists_.sub_meshes.size()));
     if (is_new) {
       lists_.sub_meshes.push(sub_mesh);
       rank_.push_back(rank);
     }
-    auto& shown = lists_.shown[combination];
-    if (std::find(shown.begin(), shown.end(), entry->second) == shown.end()) shown.push_back(entry->second);
+    return entry->second;
+  }
+
+  /// Lets a combination show sub-meshes, each once.
+  void showAll(std::size_t combination, std::span<const SubMeshId> sub_meshes) {
+    std::vector<SubMeshId>& shown = lists_.shown[combination];
+    for (const SubMeshId id : sub_meshes) {
+      if (std::find(shown.begin(), shown.end(), id) == shown.end()) shown.push_back(id);
+    }
   }
 
   /// Numbers sub-meshes in draw order.
@@ -332,13 +353,16 @@ class ListsBuilder {
   const Wardrobe& wardrobe_;
   const TemplateBody& body_;
   SubMeshLists lists_;
-  std::vector<std::vector<std::uint32_t>> part_order_;  ///< per body part: FaceIds in draw order
-  std::vector<VisibleFaces> visible_;                   ///< per combination
-  std::vector<std::uint32_t> rank_;                     ///< per sub-mesh, before sorting
+  std::vector<DrawPart> parts_;
+  std::vector<VisibleFaces> visible_;  ///< distinct, as lists_.hidden_sets
+  std::map<std::vector<std::uint32_t>, std::uint32_t> set_by_content_;
+  std::vector<std::vector<SubMeshId>> body_sub_meshes_;  ///< per set of visible_
+  std::map<ItemId, std::vector<SubMeshId>> garments_of_item_, extra_of_item_;
+  std::vector<std::uint32_t> rank_;  ///< per sub-mesh, before sorting
   std::map<std::string, MeshId> mesh_by_content_;
   std::map<std::string, IndexListId> list_by_content_;
   std::map<std::string, std::uint32_t> image_by_content_;
-  std::map<std::array<std::uint32_t, 5>, SubMeshId> sub_mesh_by_content_;
+  std::map<std::array<std::uint32_t, 7>, SubMeshId> sub_mesh_by_content_;
 };
 
 constexpr const char* kTechniqueNames[] = {"naive", "prefitted", "tagged"};
@@ -371,26 +395,6 @@ SubMeshLists buildSubMeshLists(const Wardrobe& wardrobe, std::span<const Combina
 std::uint64_t lowerBoundBytes(const Wardrobe& wardrobe, std::span<const Combination> combinations) {
   // Naive storage is exactly that: the template and the distinct garments, each once.
   return buildSubMeshLists(wardrobe, combinations, Technique::kNaive).meshBytes();
-}
-
-GpuVertex packVertex(const RawVertex& vertex) {
-  GpuVertex packed{};
-  for (int axis = 0; axis < 3; ++axis) packed.position[axis] = vertex.position[axis];
-  const Vec2 octahedral = encodeOctahedral(vertex.normal);
-  packed.normal_oct[0] = toSnorm16(octahedral.x);
-  packed.normal_oct[1] = toSnorm16(octahedral.y);
-  packed.uv[0] = vertex.uv.x;
-  packed.uv[1] = vertex.uv.y;
-
-  // Round the weights; what is missing to one goes to the largest, which is the first.
-  int sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    packed.joints[i] = vertex.skin.joints[i];
-    packed.weights[i] = toUnorm16(vertex.skin.weights[i]);
-    sum += packed.weights[i];
-  }
-  if (sum > 0) packed.weights[0] = static_cast<std::uint16_t>(packed.weights[0] + 65535 - sum);
-  return packed;
 }
 
 }  // namespace ensemble

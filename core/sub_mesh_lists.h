@@ -52,6 +52,9 @@ struct SubMesh {
   /// Added to the list's source_faces: a garment's faces are numbered through its parts, and body
   /// faces that only an outfit has follow the template's.
   std::uint32_t source_face_offset = 0;
+  Slot slot = Slot::kFull;  ///< kGarment: of its item
+  /// Of a single item, that of most of its faces: its trimmings are coloured with it. Else `material`.
+  std::uint32_t main_material = 0;
 };
 
 /// A material and where it came from.
@@ -71,16 +74,17 @@ struct SubMeshLists {
   std::vector<Combination> combinations;
   /// Per combination: its sub-meshes, ascending.
   std::vector<std::vector<SubMeshId>> shown;
-  /// Per combination: 1 bit per template face, set where hidden, 32 faces a word.
-  std::vector<std::vector<std::uint32_t>> hidden_bits;
+  /// Distinct: 1 bit per template face, set where hidden, 32 faces a word.
+  std::vector<std::vector<std::uint32_t>> hidden_sets;
+  std::vector<std::uint32_t> hidden_set;  ///< per combination: index into hidden_sets
 
   /// Vertices and indices of all meshes as the GPU holds them.
   std::uint64_t meshBytes() const;
 };
 
-/// Builds the lists for some combinations of a wardrobe. Deterministic; equal geometry is stored
-/// once. The visible faces of a combination are those that every one of its items leaves visible.
-/// Faces of a body keep one relative order in every list of every technique (a subsequence of the
+/// Builds the lists for some combinations of a wardrobe. Deterministic; equal geometry and equal visible
+/// sets are stored once. The visible faces of a combination are those that every one of its items leaves
+/// visible. Faces of a body keep one relative order in every list of every technique (a subsequence of the
 /// template's vertex-cache order), so that equal depths resolve alike and pictures are the same.
 /// @pre combinations are valid and distinct.
 SubMeshLists buildSubMeshLists(const Wardrobe& wardrobe, std::span<const Combination> combinations,

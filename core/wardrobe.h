@@ -9,6 +9,7 @@
 #include "core/clip.h"
 #include "core/ids.h"
 #include "core/raw_asset.h"
+#include "core/slots.h"
 
 namespace ensemble {
 
@@ -68,7 +69,7 @@ struct RegionTag {
 /// One outfit file (design 4): garments, and the set of template faces that show under it.
 struct Item {
   std::string name;
-  std::string slot = "full";
+  Slot slot = Slot::kFull;
   int layer = 0;
   std::vector<Garment> garments;
   std::vector<ExtraBodyPart> extra_body;

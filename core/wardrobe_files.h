@@ -43,7 +43,8 @@ struct ManifestTemplate {
 
 /// An outfit's entry; a function of its file's bytes alone (tag, ship, add give the same).
 struct ManifestOutfit {
-  std::string name, file, sha256, slot;
+  std::string name, file, sha256;
+  Slot slot = Slot::kFull;
   int layer = 0;
   std::vector<ManifestGarment> garments;
   std::vector<ManifestTag> regions;

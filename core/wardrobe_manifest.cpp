@@ -11,6 +11,7 @@
 
 #include "core/input_error.h"
 #include "core/json_limits.h"
+#include "core/nearest_name.h"
 #include "core/wardrobe_files.h"
 #include "embedded/kWardrobeJsonSchema.h"
 
@@ -71,8 +72,8 @@ OrderedJson toJson(const ManifestOutfit& outfit) {
                        {"template_faces", tag.template_faces},
                        {"visible_faces", tag.visible_faces}});
   }
-  return {{"name", outfit.name},          {"file", outfit.file},   {"sha256", outfit.sha256},
-          {"slot", outfit.slot},          {"layer", outfit.layer}, {"garments", std::move(garments)},
+  return {{"name", outfit.name},           {"file", outfit.file},   {"sha256", outfit.sha256},
+          {"slot", toString(outfit.slot)}, {"layer", outfit.layer}, {"garments", std::move(garments)},
           {"regions", std::move(regions)}};
 }
 
@@ -147,12 +148,19 @@ ManifestTemplate readTemplate(const json& node) {
   return body;
 }
 
-ManifestOutfit readOutfit(const json& node) {
+/// @param where the outfit's place in the file
+ManifestOutfit readOutfit(const json& node, const std::string& file, const std::string& where) {
   ManifestOutfit outfit;
   outfit.name = node["name"];
   outfit.file = node["file"];
   outfit.sha256 = node["sha256"];
-  outfit.slot = node["slot"];
+  const std::string slot = node["slot"];
+  const std::optional<Slot> known_slot = parseSlot(slot);
+  if (!known_slot) {
+    throw InputError(
+        {file, where + "/slot", quotedName(slot) + " is no slot: not " + slotNames(), kMakeAgain});
+  }
+  outfit.slot = *known_slot;
   outfit.layer = node["layer"];
   for (const json& garment : node["garments"]) outfit.garments.push_back({garment["name"], garment["faces"]});
   for (const json& tag : node["regions"]) {
@@ -192,8 +200,8 @@ Manifest parseManifest(const std::string& text, const std::string& file) {
   checkDistinctNames(manifest.body.regions, file, "/template/regions");
   checkDistinctNames(manifest.body.clips, file, "/template/clips");
   for (const json& outfit : document["outfits"]) {
-    manifest.outfits.push_back(readOutfit(outfit));
-    const std::string where = "/outfits/" + std::to_string(manifest.outfits.size() - 1);
+    const std::string where = "/outfits/" + std::to_string(manifest.outfits.size());
+    manifest.outfits.push_back(readOutfit(outfit, file, where));
     checkFileName(manifest.outfits.back().file, file, where + "/file");
     if (!isValidItemName(manifest.outfits.back().name)) {
       throw InputError({file, where + "/name",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "core/check.h"
@@ -11,42 +12,20 @@
 #include "core/nearest_name.h"
 #include "core/random.h"
 #include "renderer/animation.h"
+#include "renderer/crowd_clothes.h"
 #include "renderer/crowd_of_table.h"
 #include "renderer/crowd_streams.h"
 #include "renderer/crowd_walkers.h"
 #include "renderer/placement.h"
 #include "renderer/scene_names.h"
+#include "renderer/weighted_choice.h"
 
 namespace ensemble {
 namespace {
 
-/// Chooses a number with a probability in proportion to its weight; one of weight 0 never.
-class WeightedChoice {
- public:
-  void add(float weight) {
-    sums_.push_back(total() + static_cast<double>(weight));
-    if (weight > 0.0f) last_possible_ = sums_.size() - 1;
-  }
-  double total() const { return sums_.empty() ? 0.0 : sums_.back(); }
-  std::size_t size() const { return sums_.size(); }
-
-  /// @param u in [0, 1). @pre total() > 0
-  std::size_t choose(double u) const {
-    // The first sum beyond u: an entry of weight 0 has the sum of the one before it.
-    const auto found = std::upper_bound(sums_.begin(), sums_.end(), u * total());
-    return std::min(static_cast<std::size_t>(found - sums_.begin()), last_possible_);
-  }
-
- private:
-  std::vector<double> sums_;
-  std::size_t last_possible_ = 0;
-};
-
 /// What the crowd of one wardrobe wears and does.
 struct WardrobeChoices {
   bool is_used = false;  ///< its weight is above 0
-  std::vector<Combination> outfits;
-  WeightedChoice outfit;
   std::vector<std::uint32_t> clips;
   WeightedChoice clip;
   std::optional<std::uint32_t> idle;       ///< where people walk: what they stand with
@@ -64,12 +43,16 @@ std::optional<std::uint32_t> firstClip(const TemplateBody& body, bool moves) {
 class CrowdBuilder {
  public:
   CrowdBuilder(const Scene& scene, std::span<const Wardrobe> wardrobes)
-      : scene_(scene), wardrobes_(wardrobes), names_(scene, wardrobes), choices_(wardrobes.size()) {}
+      : scene_(scene),
+        wardrobes_(wardrobes),
+        names_(scene, wardrobes),
+        clothes_(scene, wardrobes, names_),
+        choices_(wardrobes.size()) {}
 
   Crowd build() {
     if (scene_.crowd.placement.kind == PlacementKind::kTable) table_.emplace(scene_, wardrobes_);
     weighWardrobes();
-    weighOutfits();
+    weighClothes();
     weighClips();
     addPeople();
     addCrowd();
@@ -91,43 +74,12 @@ class CrowdBuilder {
     ENSEMBLE_CHECK(wardrobe_.total() > 0.0);  // parseScene refuses weights that are all 0
   }
 
-  void weighOutfits() {
-    if (scene_.crowd.outfits.empty()) {
-      for (std::size_t w = 0; w < wardrobes_.size(); ++w) weighAllOutfits(w);
-      return;
-    }
-    for (const WeightedName& named : scene_.crowd.outfits) {
-      const FoundOutfit found = names_.outfit(named.name, named.mark);
-      WardrobeChoices& choices = choices_[found.wardrobe];
-      const Combination combination{found.item};
-      if (std::find(choices.outfits.begin(), choices.outfits.end(), combination) != choices.outfits.end()) {
-        names_.fail(named.mark, fmt::format("the outfit {} is here a second time", quotedName(named.name)),
-                    "remove one of them");
-      }
-      choices.outfits.push_back(combination);
-      choices.outfit.add(named.weight);
-    }
-    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
-      if (!choices_[w].is_used || choices_[w].outfit.total() > 0.0) continue;
-      names_.fail(scene_.crowd.outfits.front().mark,
-                  fmt::format("crowd.outfits has nothing to wear for {}", names_.describe(w)),
-                  "list an outfit of it with a weight above 0, or give the wardrobe the weight 0 in "
-                  "crowd.wardrobes");
-    }
-  }
-
-  /// Every complete outfit alike; single pieces only where there is nothing else.
-  void weighAllOutfits(std::size_t wardrobe) {
-    const PerItem<Item>& items = wardrobes_[wardrobe].items;
-    WardrobeChoices& choices = choices_[wardrobe];
-    const auto is_full = [](const Item& item) { return item.slot == "full"; };
-    const bool has_full = std::any_of(items.begin(), items.end(), is_full);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      if (has_full && !is_full(items[ItemId(i)])) continue;
-      choices.outfits.push_back({ItemId(i)});
-    }
-    if (items.empty()) choices.outfits.push_back({});
-    for (std::size_t i = 0; i < choices.outfits.size(); ++i) choices.outfit.add(1.0f);
+  /// Nobody of the crowd need be dressed where a table tells what they wear, or where there is nobody.
+  void weighClothes() {
+    const bool is_needed = scene_.crowd.count != 0u && !(table_ && table_->tellsOutfits());
+    std::vector<bool> is_used;
+    for (const WardrobeChoices& choices : choices_) is_used.push_back(choices.is_used && is_needed);
+    clothes_.weigh(is_used);
   }
 
   bool walks() const {
@@ -187,11 +139,11 @@ class CrowdBuilder {
       character.wardrobe = names_.wardrobeOrOnly(
           {person.wardrobe.value, person.wardrobe.value.empty() ? person.mark : person.wardrobe.mark},
           fmt::format("people.{}", i), "add 'wardrobe:' with");
-      Combination items;
-      if (!person.outfit.value.empty()) {
-        items.push_back(names_.outfitOf(character.wardrobe, person.outfit.value, person.outfit.mark));
-      }
-      character.combination = addWorn({character.wardrobe, std::move(items)});
+      character.combination =
+          addWorn({character.wardrobe,
+                   person.wears.empty()
+                       ? names_.combinationOf(character.wardrobe, person.outfit.value, person.outfit.mark)
+                       : names_.combinationOf(character.wardrobe, person.wears)});
       if (!person.clip.value.empty()) {
         character.clip = names_.clipOf(character.wardrobe, person.clip.value, person.clip.mark);
       }
@@ -207,11 +159,13 @@ class CrowdBuilder {
 
   void addCrowd() {
     const SceneCrowd& crowd = scene_.crowd;
-    const std::vector<std::uint32_t> first_worn = addAllWorn();
+    if (table_) {
+      for (const WornCombination& worn : table_->worn()) worn_of_table_.push_back(addWorn(worn));
+    }
     const std::uint64_t seed = crowd.seed;
-    const RandomStream wardrobes(seed, crowd_stream::kWardrobe), outfits(seed, crowd_stream::kOutfit),
-        clips(seed, crowd_stream::kClip), phases(seed, crowd_stream::kPhase),
-        scales(seed, crowd_stream::kScale), tints(seed, crowd_stream::kTint);
+    const RandomStream wardrobes(seed, crowd_stream::kWardrobe), clips(seed, crowd_stream::kClip),
+        phases(seed, crowd_stream::kPhase), scales(seed, crowd_stream::kScale),
+        tints(seed, crowd_stream::kTint);
     const std::uint32_t count = walks() ? setOut() : table_ ? table_->count() : *crowd.count;
     const std::vector<Place> places = walks() ? std::vector<Place>() : place(count);
     crowd_.characters.reserve(crowd_.characters.size() + count);
@@ -221,8 +175,6 @@ class CrowdBuilder {
                                ? table_->wardrobe(i)
                                : static_cast<std::uint32_t>(wardrobe_.choose(wardrobes.uniform(i)));
       const WardrobeChoices& choices = choices_[character.wardrobe];
-      character.combination = first_worn[character.wardrobe] +
-                              static_cast<std::uint32_t>(choices.outfit.choose(outfits.uniform(i)));
       const std::size_t clip = choices.clip.choose(clips.uniform(i));
       character.clip = choices.clips[clip];
       character.phase = phases.uniformFloat(i);
@@ -235,21 +187,14 @@ class CrowdBuilder {
         character.position = places[i].position;
         character.heading = places[i].heading;
       }
-      if (table_) table_->tell(i, first_worn.back(), character);
+      if (table_ && table_->tellsOutfits()) {
+        character.combination = worn_of_table_[table_->outfit(i)];
+      } else {
+        character.combination = addWorn({character.wardrobe, clothes_.of(character.wardrobe, i)});
+      }
+      if (table_) table_->tell(i, character);
       crowd_.characters.push_back(character);
     }
-  }
-
-  /// What the crowd may wear. Per wardrobe: its first outfit in worn_; and last: the table's first.
-  std::vector<std::uint32_t> addAllWorn() {
-    std::vector<std::uint32_t> first_worn;
-    for (std::uint32_t w = 0; w < choices_.size(); ++w) {
-      first_worn.push_back(static_cast<std::uint32_t>(worn_.size()));
-      for (const Combination& items : choices_[w].outfits) worn_.push_back({w, items});
-    }
-    first_worn.push_back(static_cast<std::uint32_t>(worn_.size()));
-    if (table_) worn_.insert(worn_.end(), table_->worn().begin(), table_->worn().end());
-    return first_worn;
   }
 
   std::vector<Place> place(std::uint32_t count) const {
@@ -324,29 +269,22 @@ class CrowdBuilder {
     character.phase = pose.phase;
   }
 
+  /// Numbers combinations as they come, equal ones alike.
   std::uint32_t addWorn(WornCombination worn) {
-    worn_.push_back(std::move(worn));
-    return static_cast<std::uint32_t>(worn_.size() - 1);
+    const auto [entry, is_new] =
+        number_of_worn_.try_emplace(std::move(worn), static_cast<std::uint32_t>(number_of_worn_.size()));
+    return entry->second;
   }
 
-  /// Characters so far index worn_, which holds equal ones and ones that nobody wears.
+  /// Numbers combinations anew, by wardrobe and items, without those of a table that nobody wears.
   void internCombinations() {
-    std::vector<std::uint8_t> is_worn(worn_.size(), 0);
+    std::vector<std::uint8_t> is_worn(number_of_worn_.size(), 0);
     for (const Character& character : crowd_.characters) is_worn[character.combination] = 1;
-    const auto before = [](const WornCombination& a, const WornCombination& b) {
-      return a.wardrobe != b.wardrobe ? a.wardrobe < b.wardrobe : a.items < b.items;
-    };
-    std::vector<WornCombination>& distinct = crowd_.combinations;
-    for (std::size_t i = 0; i < worn_.size(); ++i) {
-      if (is_worn[i] != 0) distinct.push_back(worn_[i]);
-    }
-    std::sort(distinct.begin(), distinct.end(), before);
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    std::vector<std::uint32_t> renumbered(worn_.size(), 0);
-    for (std::size_t i = 0; i < worn_.size(); ++i) {
-      if (is_worn[i] == 0) continue;
-      const auto found = std::lower_bound(distinct.begin(), distinct.end(), worn_[i], before);
-      renumbered[i] = static_cast<std::uint32_t>(found - distinct.begin());
+    std::vector<std::uint32_t> renumbered(number_of_worn_.size(), 0);
+    for (const auto& [worn, number] : number_of_worn_) {
+      if (is_worn[number] == 0) continue;
+      renumbered[number] = static_cast<std::uint32_t>(crowd_.combinations.size());
+      crowd_.combinations.push_back(worn);
     }
     for (Character& character : crowd_.characters) character.combination = renumbered[character.combination];
   }
@@ -355,9 +293,11 @@ class CrowdBuilder {
   std::span<const Wardrobe> wardrobes_;
   SceneNames names_;
   std::optional<CrowdOfTable> table_;  ///< where the crowd comes from one
+  CrowdClothes clothes_;
   WeightedChoice wardrobe_;
   std::vector<WardrobeChoices> choices_;
-  std::vector<WornCombination> worn_;
+  std::map<WornCombination, std::uint32_t> number_of_worn_;
+  std::vector<std::uint32_t> worn_of_table_;
   Crowd crowd_;
 };
 

@@ -19,7 +19,7 @@ namespace ensemble {
 struct WornCombination {
   std::uint32_t wardrobe = 0;  ///< index into Scene::wardrobes
   Combination items;
-  bool operator==(const WornCombination&) const = default;
+  auto operator<=>(const WornCombination&) const = default;
 };
 
 /// One person at time 0.
@@ -67,15 +67,14 @@ CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_
 
 /// Fills a scene's placements. The same scene and wardrobes give the same crowd, on every machine
 /// (random.h). What is random about a person depends on the seed and the person's number in the
-/// crowd only, so that a change of weights or scale moves nobody. An outfit's weight counts within
-/// the wardrobe chosen for the person; without `outfits`, each item of slot "full" is alike (of any
-/// slot, if none is "full"; the bare body, if there is no item).
+/// crowd only, so that a change of weights or scale moves nobody. Weights of clothes count within the
+/// wardrobe chosen for the person (CrowdClothes); a wardrobe without any item leaves people bare.
 /// @param wardrobes one for each of scene.wardrobes
 /// @throws InputError with line:column for an outfit, clip or wardrobe that does not exist, naming
 /// the nearest; for a bare outfit name that several wardrobes have; for a clip that one lacks; for
-/// a wardrobe of which no outfit is listed; for a spacing that can't be kept so far from the origin;
-/// for a clip without ground speed where people walk; for paths and files that can't be followed; for a
-/// crowd table as CrowdOfTable.
+/// a wardrobe that can't dress a person; for items that exclude each other; for a spacing that can't be kept
+/// so far from the origin; for a clip without ground speed where people walk; for paths and files that can't
+/// be followed; for a crowd table as CrowdOfTable.
 Crowd populateCrowd(const Scene& scene, std::span<const Wardrobe> wardrobes);
 
 }  // namespace ensemble

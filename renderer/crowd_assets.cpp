@@ -18,6 +18,7 @@ namespace ensemble {
 namespace {
 
 constexpr float kDarkestReference = 0.02f;  // A tint of a black texture would be infinite.
+constexpr float kMostShade = 3.0f;          // A trimming this much brighter than its item is a contrast.
 
 std::span<const std::byte> bytesOf(const auto& vector) { return std::as_bytes(std::span(vector)); }
 
@@ -91,27 +92,45 @@ class CrowdAssets::Builder {
   }
 
   /// A material's colour where no tint is: its factor times the mean of its texture.
-  GpuMaterial makeMaterial(std::uint32_t w, const ListMaterial& from) const {
+  Vec3 meanOf(std::uint32_t w, const RawMaterial& raw) const {
+    Vec3 mean(raw.base_color);
+    if (raw.image) mean *= assets_.textures_->texture(numbers_[w].first_texture + *raw.image).mean;
+    return mean;
+  }
+
+  /// The material that a sub-mesh is tinted as: of a single item's trimmings that of the item.
+  const ListMaterial& tintedAs(std::uint32_t w, const SubMesh& sub_mesh) const {
+    const ListMaterial& own = lists(w).materials[sub_mesh.material];
+    if (sub_mesh.kind == SubMeshKind::kBody) return own;
+    const ListMaterial& main = lists(w).materials[sub_mesh.main_material];
+    return tintKindOf(main.material.name, false) == tintKindOf(own.material.name, false) ? main : own;
+  }
+
+  GpuMaterial makeMaterial(std::uint32_t w, const SubMesh& sub_mesh) const {
+    const ListMaterial& from = lists(w).materials[sub_mesh.material];
     const RawMaterial& raw = from.material;
+    const RawMaterial& main = tintedAs(w, sub_mesh).material;
     GpuMaterial material{};
     material.base_color = raw.base_color;
     material.alpha_cutoff = raw.alpha_cutoff;
-    Vec3 mean(raw.base_color);
     if (raw.image) {
-      const StoredTexture& texture = assets_.textures_->texture(numbers_[w].first_texture + *raw.image);
-      material.texture_layer = texture.layer;
-      mean *= texture.mean;
+      material.texture_layer = assets_.textures_->texture(numbers_[w].first_texture + *raw.image).layer;
     }
     const TintKind kind = tintKindOf(raw.name, from.is_skin);
     const TintRange range = tintRange(kind);
-    if (kind == TintKind::kSkin) mean = input_.wardrobes[w].skin;
-    const float strength = raw.image ? range.textured_strength : range.strength;
-    material.tint = Vec4(1.0f / glm::max(mean, Vec3(kDarkestReference)), strength);
+    const Vec3 mean = glm::max(kind == TintKind::kSkin ? input_.wardrobes[w].skin : meanOf(w, main),
+                               Vec3(kDarkestReference));
+    // Trimmings keep their shade of the item's colour; contrasts, such as white stripes, stay as they are.
+    const bool contrasts = glm::any(glm::greaterThan(meanOf(w, raw), kMostShade * mean));
+    const float strength = main.image ? range.textured_strength : range.strength;
+    material.tint = Vec4(1.0f / mean, &main != &raw && contrasts ? 0.0f : strength);
     material.tint_first = range.first;
-    material.tint_count = range.count;
+    const bool is_lower = sub_mesh.slot == Slot::kLower && range.lower_count > 0;
+    material.tint_count = is_lower ? range.lower_count : range.count;
     material.tint_spread = range.spread;
     material.sheen = range.sheen;
-    material.lower_tint_count = range.lower_count;
+    // Only a complete outfit is a shirt and trousers in one.
+    material.lower_tint_count = sub_mesh.slot == Slot::kFull ? range.lower_count : 0;
     return material;
   }
 
@@ -192,14 +211,16 @@ class CrowdAssets::Builder {
   }
 
   /// Appends a material for one sub-mesh, unless the same one is there. Garments that share a
-  /// material have tints of their own, so the name goes into it.
+  /// material have tints of their own, so the name goes into it; a single item has one, and those that a
+  /// person wears together are of different slots.
   std::uint32_t addMaterial(std::uint32_t w, const SubMesh& sub_mesh) {
     const ListMaterial& from = lists(w).materials[sub_mesh.material];
-    GpuMaterial material = makeMaterial(w, from);
+    GpuMaterial material = makeMaterial(w, sub_mesh);
     const bool is_body = sub_mesh.kind == SubMeshKind::kBody;
-    const std::string name = is_body ? std::string() : lists(w).garment_names[sub_mesh.region];
-    material.tint_key =
-        tintKey(tintKindOf(from.material.name, from.is_skin), name + "/" + from.material.name);
+    std::string name = is_body ? std::string() : lists(w).garment_names[sub_mesh.region];
+    if (sub_mesh.slot != Slot::kFull) name = toString(sub_mesh.slot);
+    material.tint_key = tintKey(tintKindOf(from.material.name, from.is_skin),
+                                name + "/" + tintedAs(w, sub_mesh).material.name);
     const auto same = [&](const GpuMaterial& other) {
       return std::memcmp(&other, &material, sizeof material) == 0;
     };
@@ -265,6 +286,12 @@ class CrowdAssets::Builder {
   }
 
   void addCombinations() {
+    for (std::uint32_t w = 0; w < input_.wardrobes.size(); ++w) {
+      numbers_[w].first_hidden_word = static_cast<std::uint32_t>(hidden_words_.size());
+      for (const std::vector<std::uint32_t>& set : lists(w).hidden_sets) {
+        hidden_words_.insert(hidden_words_.end(), set.begin(), set.end());
+      }
+    }
     for (const auto& [w, combination] : input_.combinations) {
       std::vector<SubMeshId> shown;
       for (const SubMeshId id : lists(w).shown[combination]) {
@@ -272,9 +299,9 @@ class CrowdAssets::Builder {
       }
       std::sort(shown.begin(), shown.end());
       assets_.shown_.push_back(std::move(shown));
-      hidden_first_.push_back(static_cast<std::uint32_t>(hidden_words_.size()));
-      const std::vector<std::uint32_t>& hidden = lists(w).hidden_bits[combination];
-      hidden_words_.insert(hidden_words_.end(), hidden.begin(), hidden.end());
+      const std::uint32_t set = lists(w).hidden_set[combination];
+      const auto words = static_cast<std::uint32_t>(lists(w).hidden_sets[set].size());  // alike in all
+      hidden_first_.push_back(numbers_[w].first_hidden_word + set * words);
     }
   }
 
@@ -319,6 +346,7 @@ class CrowdAssets::Builder {
   struct Numbers {
     std::size_t first_texture = 0;
     std::uint32_t first_garment = 0;
+    std::uint32_t first_hidden_word = 0;
     std::vector<std::optional<PlacedMesh>> meshes;
     std::vector<std::optional<PlacedList>> lists;
     std::vector<std::uint32_t> item_of_sub_mesh;

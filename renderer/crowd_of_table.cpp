@@ -17,8 +17,7 @@ CrowdOfTable::CrowdOfTable(const Scene& scene, std::span<const Wardrobe> wardrob
       is_used_(wardrobes.size(), false) {
   refuseKeys();
   takeCount(scene.crowd.count);
-  const bool tells_outfits = table_.has(CrowdColumn::kOutfit);
-  if (tells_outfits && !tellsWardrobes() && wardrobes.size() > 1) {
+  if (tellsOutfits() && !tellsWardrobes() && wardrobes.size() > 1) {
     throw InputError(
         {scene.crowd.placement.file.value.string(), "1:1",
          fmt::format("the table tells outfits, but not of which of {} wardrobes", wardrobes.size()),
@@ -28,7 +27,7 @@ CrowdOfTable::CrowdOfTable(const Scene& scene, std::span<const Wardrobe> wardrob
     const std::uint32_t wardrobe = tellsWardrobes() ? wardrobeOf(row) : 0;
     if (tellsWardrobes()) wardrobes_.push_back(wardrobe);
     is_used_[wardrobe] = true;
-    if (tells_outfits) outfits_.push_back(wornOf(wardrobe, row.outfit));
+    if (tellsOutfits()) outfits_.push_back(wornOf(wardrobe, row.outfit));
   }
 }
 
@@ -48,6 +47,7 @@ void CrowdOfTable::refuseKeys() const {
   const ScenePlacement& placement = crowd.placement;
   refuse(CrowdColumn::kWardrobe, "crowd.wardrobes", firstOf(crowd.wardrobes));
   refuse(CrowdColumn::kOutfit, "crowd.outfits", firstOf(crowd.outfits));
+  refuse(CrowdColumn::kOutfit, "crowd.wear", crowd.wear.empty() ? nullptr : &crowd.wear.front().mark);
   refuse(CrowdColumn::kClip, "crowd.clips", firstOf(crowd.clips));
   refuse(CrowdColumn::kScale, "crowd.scale", crowd.scale_mark.key_path.empty() ? nullptr : &crowd.scale_mark);
   refuse(CrowdColumn::kHeading, "crowd.placement.heading",
@@ -85,9 +85,8 @@ std::uint32_t CrowdOfTable::clipOf(std::uint32_t wardrobe, const CrowdTableName&
   return entry->second;
 }
 
-void CrowdOfTable::tell(std::uint32_t person, std::uint32_t first_worn, Character& character) {
+void CrowdOfTable::tell(std::uint32_t person, Character& character) {
   const CrowdTableRow& row = table_.rows[person];
-  if (table_.has(CrowdColumn::kOutfit)) character.combination = first_worn + outfits_[person];
   if (table_.has(CrowdColumn::kClip)) character.clip = clipOf(character.wardrobe, row.clip);
   if (table_.has(CrowdColumn::kPhase)) character.phase = row.phase;
   if (table_.has(CrowdColumn::kSpeed)) character.speed = row.speed;

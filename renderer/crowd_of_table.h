@@ -31,12 +31,15 @@ class CrowdOfTable {
   /// Somebody's, and whether anybody has it. @pre tellsWardrobes()
   std::uint32_t wardrobe(std::uint32_t person) const { return wardrobes_[person]; }
   bool uses(std::uint32_t wardrobe) const { return is_used_[wardrobe]; }
-  /// What its people wear; distinct.
+  bool tellsOutfits() const { return table_.has(CrowdColumn::kOutfit); }
+  /// What somebody wears: an index into worn(). @pre tellsOutfits()
+  std::uint32_t outfit(std::uint32_t person) const { return outfits_[person]; }
+  /// What its people wear.
   const std::vector<WornCombination>& worn() const { return worn_; }
 
-  /// Replaces in `character`, whose wardrobe is known, what the table tells of somebody; the place is added
-  /// to its position. @param first_worn number of the first of worn()
-  void tell(std::uint32_t person, std::uint32_t first_worn, Character& character);
+  /// Replaces in `character`, whose wardrobe and clothes are known, what else the table tells of somebody;
+  /// the place is added to its position.
+  void tell(std::uint32_t person, Character& character);
 
  private:
   void refuseKeys() const;

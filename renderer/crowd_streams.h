@@ -20,5 +20,6 @@ inline constexpr std::uint64_t kPersonTint = 11;  ///< of `people`, by number in
 inline constexpr std::uint64_t kPathShift = 12;   ///< by number in the crowd, lanes from 2^40 on
 inline constexpr std::uint64_t kLaneSpeed = 13;   ///< by number of the lane
 inline constexpr std::uint64_t kFirstFoot = 14;
+inline constexpr std::uint64_t kWear = 15;  ///< and the number of the slot: 15 to 21
 
 }  // namespace ensemble::crowd_stream

@@ -23,6 +23,17 @@ std::string writeNearest(const std::string& name, std::span<const std::string> k
   return "write " + (is_near || known.size() > kFewNames ? quotedList(nearest) : quotedList(known));
 }
 
+/// The parts of "a+b+c"; of "a" itself.
+std::vector<std::string> splitOutfit(const std::string& name) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('+', begin), name.size());
+    parts.push_back(name.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 std::vector<std::string> itemNames(const Wardrobe& wardrobe) {
   std::vector<std::string> names;
   for (const Item& item : wardrobe.items) names.push_back(item.name);
@@ -114,38 +125,70 @@ std::string SceneNames::writeNearestOutfit(const std::string& name) const {
 std::vector<std::string> SceneNames::fullNames(const std::string& bare) const {
   std::vector<std::string> names;
   for (std::uint32_t w = 0; w < wardrobes_.size(); ++w) {
-    if (findItem(w, bare).valid()) names.push_back(scene_.wardrobes[w].key + '/' + bare);
+    if (hasOutfit(w, bare)) names.push_back(scene_.wardrobes[w].key + '/' + bare);
   }
   return names;
 }
 
+bool SceneNames::hasOutfit(std::uint32_t wardrobe, const std::string& name) const {
+  if (findItem(wardrobe, name).valid()) return true;
+  const std::vector<std::string> parts = splitOutfit(name);
+  return std::all_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return findItem(wardrobe, part).valid(); });
+}
+
 FoundOutfit SceneNames::outfit(const std::string& name, const SourceMark& mark) const {
-  std::vector<FoundOutfit> found;
+  std::vector<std::uint32_t> found;
   for (std::uint32_t w = 0; w < wardrobes_.size(); ++w) {
-    const ItemId item = findItem(w, name);
-    if (item.valid()) found.push_back({w, item});
+    if (hasOutfit(w, name)) found.push_back(w);
   }
-  if (found.size() == 1) return found[0];
   if (found.size() > 1) {
     fail(mark, fmt::format("{} wardrobes have an outfit {}", found.size(), quotedName(name)),
          "write " + quotedList(fullNames(name)));
   }
-  if (const auto w = wardrobePrefix(name)) return {*w, outfitOf(*w, name, mark)};
-  if (wardrobes_.size() == 1) return {0, outfitOf(0, name, mark)};
-  fail(mark, fmt::format("no wardrobe has an outfit {}", quotedName(name)), writeNearestOutfit(name));
+  if (found.empty()) {
+    const std::optional<std::uint32_t> prefix = wardrobePrefix(name);
+    if (prefix || wardrobes_.size() == 1) found.push_back(prefix.value_or(0));
+  }
+  if (!found.empty()) return {found[0], combinationOf(found[0], name, mark)};
+  for (const std::string& part : splitOutfit(name)) {
+    if (!fullNames(part).empty()) continue;
+    fail(mark, fmt::format("no wardrobe has an outfit {}", quotedName(part)), writeNearestOutfit(part));
+  }
+  fail(mark, fmt::format("no wardrobe has all of {}", quotedName(name)), "write items of one wardrobe");
+}
+
+ItemId SceneNames::findItemOf(std::uint32_t wardrobe, const std::string& name) const {
+  const ItemId item = findItem(wardrobe, name);
+  if (item.valid() || wardrobePrefix(name) != wardrobe) return item;
+  return findItem(wardrobe, std::string_view(name).substr(name.find('/') + 1));
 }
 
 ItemId SceneNames::outfitOf(std::uint32_t wardrobe, const std::string& name, const SourceMark& mark) const {
-  ItemId item = findItem(wardrobe, name);
-  std::string bare = name;
-  if (!item.valid() && wardrobePrefix(name) == wardrobe) {
-    bare = name.substr(name.find('/') + 1);
-    item = findItem(wardrobe, bare);
-  }
+  const ItemId item = findItemOf(wardrobe, name);
   if (item.valid()) return item;
+  const std::string bare = wardrobePrefix(name) == wardrobe ? name.substr(name.find('/') + 1) : name;
   const std::vector<std::string> known = itemNames(wardrobes_[wardrobe]);
   fail(mark, fmt::format("{} has no outfit {}", describe(wardrobe), quotedName(bare)),
        writeNearest(bare, known, "add outfits to it"));
+}
+
+void SceneNames::failNoItem(Slot slot, const std::string& name, const SourceMark& mark) const {
+  const std::optional<std::uint32_t> only =
+      wardrobes_.size() == 1 ? std::optional<std::uint32_t>(0) : wardrobePrefix(name);
+  std::vector<std::string> known;
+  for (std::uint32_t w = 0; w < wardrobes_.size(); ++w) {
+    if (only && *only != w) continue;
+    for (const Item& item : wardrobes_[w].items) {
+      if (item.slot != slot || std::find(known.begin(), known.end(), item.name) != known.end()) continue;
+      known.push_back(item.name);
+    }
+  }
+  const std::string bare = wardrobePrefix(name) ? name.substr(name.find('/') + 1) : name;
+  fail(mark,
+       fmt::format("{} item {} of the slot '{}'", only ? describe(*only) + " has no" : "no wardrobe has an",
+                   quotedName(bare), toString(slot)),
+       writeNearest(bare, known, "add items of the slot"));
 }
 
 Combination SceneNames::combinationOf(std::uint32_t wardrobe, const std::string& name,
@@ -154,23 +197,38 @@ Combination SceneNames::combinationOf(std::uint32_t wardrobe, const std::string&
   if (name.find('+') == std::string::npos || findItem(wardrobe, name).valid()) {
     return {outfitOf(wardrobe, name, mark)};
   }
-  const PerItem<Item>& items = wardrobes_[wardrobe].items;
-  Combination combination;
-  for (std::size_t begin = 0; begin <= name.size();) {
-    const std::size_t end = std::min(name.find('+', begin), name.size());
-    const ItemId item = outfitOf(wardrobe, name.substr(begin, end - begin), mark);
-    for (const ItemId other : combination) {
-      if (items[other].slot != items[item].slot) continue;
-      fail(mark,
-           fmt::format("{} and {} are both of the slot {}", quotedName(items[other].name),
-                       quotedName(items[item].name), quotedName(items[item].slot)),
-           "write one of them");
-    }
-    combination.push_back(item);
-    begin = end + 1;
+  Combination items;
+  for (const std::string& part : splitOutfit(name)) {
+    addItem(wardrobe, outfitOf(wardrobe, part, mark), mark, items);
   }
-  std::sort(combination.begin(), combination.end());
-  return combination;
+  return items;
+}
+
+Combination SceneNames::combinationOf(std::uint32_t wardrobe,
+                                      std::span<const Marked<std::string>> names) const {
+  Combination items;
+  for (const Marked<std::string>& name : names) {
+    addItem(wardrobe, outfitOf(wardrobe, name.value, name.mark), name.mark, items);
+  }
+  return items;
+}
+
+/// Keeps the items sorted.
+void SceneNames::addItem(std::uint32_t wardrobe, ItemId item, const SourceMark& mark,
+                         Combination& items) const {
+  const PerItem<Item>& all = wardrobes_[wardrobe].items;
+  const Slot slot = all[item].slot;
+  for (const ItemId other : items) {
+    const Slot others = all[other].slot;
+    if (!exclude(slot, others)) continue;
+    const std::string first = quotedName(all[other].name), second = quotedName(all[item].name);
+    fail(mark,
+         slot == others ? fmt::format("{} and {} are both of the slot '{}'", first, second, toString(slot))
+                        : fmt::format("{} is of the slot '{}' and {} of '{}', which exclude each other",
+                                      first, toString(others), second, toString(slot)),
+         "write one of them");
+  }
+  items.insert(std::upper_bound(items.begin(), items.end(), item), item);
 }
 
 std::uint32_t SceneNames::clipOf(std::uint32_t wardrobe, const std::string& name,

@@ -75,7 +75,7 @@ TEST(SubMeshLists, TechniquesDifferInHiddenBodyFacesOnly) {
     EXPECT_EQ(drawnFaces(tagged, c, SubMeshKind::kBody).size(),
               wardrobe.items[ItemId(c)].visibleBodyFaceCount());
     std::size_t hidden = 0;
-    for (const std::uint32_t word : tagged.hidden_bits[c])
+    for (const std::uint32_t word : tagged.hidden_sets[tagged.hidden_set[c]])
       hidden += static_cast<std::size_t>(__builtin_popcount(word));
     EXPECT_EQ(hidden, wardrobe.body.faces.size() - wardrobe.items[ItemId(c)].visibleBodyFaceCount());
   }

@@ -50,7 +50,7 @@ TEST(TagRegions, ClassifiesByTheMatchedSet) {
   ASSERT_EQ(item.garments.size(), 1u);
   EXPECT_EQ(item.garments[0].name, "garment.tunic");
   EXPECT_EQ(item.garmentFaceCount(), 80u);
-  EXPECT_EQ(item.slot, "full");
+  EXPECT_EQ(item.slot, Slot::kFull);
   EXPECT_EQ(item.layer, 0);
 }
 
@@ -166,10 +166,19 @@ TEST(TagRegions, TakesTheBodyFromANodeWhereAsked) {
 
 TEST(TagRegions, ReadsSlotAndLayerFromTheScene) {
   RawAsset outfit = halfDressed();
-  outfit.scene_extras_json = R"({"ensemble": {"slot": "top", "layer": 2}})";
+  outfit.scene_extras_json = R"({"ensemble": {"slot": "upper", "layer": 2}})";
   const Item item = tag(outfit);
-  EXPECT_EQ(item.slot, "top");
+  EXPECT_EQ(item.slot, Slot::kUpper);
   EXPECT_EQ(item.layer, 2);
+  outfit.scene_extras_json = R"({"ensemble": {"slot": "top"}})";
+  EXPECT_INPUT_ERROR(tag(outfit),
+                     "tunic.glb: /scenes: the custom property 'slot' is 'top'; set hair, head, upper, lower, "
+                     "full, feet or over");
+  outfit.scene_extras_json = R"({"ensemble": {"slot": 3}})";
+  EXPECT_INPUT_ERROR(
+      tag(outfit),
+      "tunic.glb: /scenes: the custom property 'slot' is no text; set hair, head, upper, lower, "
+      "full, feet or over");
   outfit.scene_extras_json = R"({"ensemble": {"layer": "outer"}})";
   EXPECT_INPUT_ERROR(
       tag(outfit),

@@ -158,10 +158,10 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(errorAfterHead("output:\n  widht: 3\n"),
             "4:3: unknown key 'widht' in output; write 'width' (known: width, height, samples, frames, fps, "
             "background)");
-  EXPECT_EQ(
-      errorAfterHead("people:\n  - {cloth: a}\n"),
-      "4:6: unknown key 'cloth' in people.0; write 'clip' (known: wardrobe, outfit, clip, phase, speed, "
-      "position, heading, scale, tint)");
+  EXPECT_EQ(errorAfterHead("people:\n  - {cloth: a}\n"),
+            "4:6: unknown key 'cloth' in people.0; write 'clip' (known: wardrobe, outfit, wears, clip, "
+            "phase, speed, "
+            "position, heading, scale, tint)");
   EXPECT_EQ(errorAfterHead("technique: taged\n"),
             "3:12: technique is 'taged'; give 'naive', 'prefitted' or 'tagged'; the nearest is 'tagged'");
 }
@@ -319,7 +319,7 @@ TEST(SceneOverrides, SayWhatIsWrongWithThem) {
   const std::string text = kHead + "people: [{phase: 0.1}]\ntechnique: tagged\n";
   EXPECT_EQ(errorOf(text, {{"crowd.cuont", "5"}}),
             "usage: --set crowd.cuont=5: unknown key 'cuont' in crowd; write 'count' (known: count, seed, "
-            "wardrobes, placement, outfits, clips, scale)");
+            "wardrobes, placement, outfits, wear, clips, scale)");
   EXPECT_EQ(errorOf(text, {{"output.width", "wide"}}),
             "usage: --set output.width=wide: output.width is 'wide'; give a whole number from 1 to 16384");
   EXPECT_EQ(errorOf(text, {{"output.width", ""}}),
@@ -410,7 +410,7 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
           << in_table << " is not in docs/scene.md";
     }
   }
-  EXPECT_EQ(key_count, 10 + 6 + 7 + 15 + 6 + 2 + 9 + 7 + 4 + 2);
+  EXPECT_EQ(key_count, 10 + 6 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
 }
 
 TEST(ReferenceScene, ItsAlternativesAreScenesToo) {

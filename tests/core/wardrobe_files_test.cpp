@@ -20,7 +20,7 @@ Manifest smallManifest() {
   manifest.outfits.push_back({"casual",
                               "outfits/casual.0123456789ab.glb",
                               std::string(64, 'c'),
-                              "full",
+                              Slot::kFull,
                               0,
                               {{"garment.shirt", 20}},
                               {{"head", Visibility::kFull, 4, 4}, {"legs", Visibility::kPartial, 6, 2}}});
@@ -79,6 +79,10 @@ TEST(Manifest, ChecksItsSchemaAndTellsWhere) {
   EXPECT_EQ(where(edited("\"partial\"", "\"some\"")), "/outfits/0/regions/1/visibility");
   EXPECT_EQ(where(edited("\"layer\": 0", "\"layer\": \"top\"")), "/outfits/0/layer");
   EXPECT_EQ(where(edited("\"slot\"", "\"slots\"")), "/outfits/0");
+  EXPECT_INPUT_ERROR(
+      parseManifest(edited("\"slot\": \"full\"", "\"slot\": \"top\""), "wardrobe.json"),
+      "wardrobe.json: /outfits/0/slot: 'top' is no slot: not hair, head, upper, lower, full, feet "
+      "or over; make the wardrobe again with `ensemble tag`");
 }
 
 TEST(Manifest, RefusesFilesOutsideTheFolder) {

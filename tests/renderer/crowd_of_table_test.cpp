@@ -20,7 +20,7 @@ Wardrobe makeWardrobe(const std::vector<std::pair<std::string, std::string>>& ou
   for (const auto& [name, slot] : outfits) {
     Item item;
     item.name = name;
-    item.slot = slot;
+    item.slot = parseSlot(slot).value();
     wardrobe.items.push(std::move(item));
   }
   for (const std::string& name : clips) {

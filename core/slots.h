@@ -1,0 +1,45 @@
+// Where an item is worn, and which items go together (design 4). Nobody else knows these rules.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace ensemble {
+
+/// `full`: a complete outfit, or a dress: in place of upper and lower.
+enum class Slot : std::uint8_t { kHair, kHead, kUpper, kLower, kFull, kFeet, kOver };
+inline constexpr std::array kAllSlots = {Slot::kHair, Slot::kHead, Slot::kUpper, Slot::kLower,
+                                         Slot::kFull, Slot::kFeet, Slot::kOver};
+inline constexpr std::size_t kSlotCount = kAllSlots.size();
+
+const char* toString(Slot slot);  ///< "hair", "head", "upper", "lower", "full", "feet", "over"
+std::optional<Slot> parseSlot(std::string_view name);
+std::string slotNames();  ///< for messages: "hair, head, upper, lower, full, feet or over"
+
+/// An array with one entry for each slot.
+template <class T>
+class PerSlot {
+ public:
+  T& operator[](Slot slot) { return data_[static_cast<std::size_t>(slot)]; }
+  const T& operator[](Slot slot) const { return data_[static_cast<std::size_t>(slot)]; }
+  bool operator==(const PerSlot&) const = default;
+
+ private:
+  std::array<T, kSlotCount> data_{};
+};
+
+/// Whether nobody wears items of both: two of one slot, or `full` with `upper` or `lower`.
+bool exclude(Slot a, Slot b);
+
+/// Whether a dressed person goes without any item of the slot: not without `upper` and `lower`, or `full`.
+bool isOptional(Slot slot);
+
+/// The combinations that dress a person, counted and not listed: an upper and a lower or a full one, and of
+/// each other slot one or none. @param items of each slot. None where there are 2^64 or more.
+std::optional<std::uint64_t> countCombinations(const PerSlot<std::uint64_t>& items);
+
+}  // namespace ensemble
