@@ -37,6 +37,7 @@ void addReportCommand(CLI::App& app);
 void addInspectCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
+void addAuthorCommand(CLI::App& app);
 void addPeopleCommand(CLI::App& app);
 void addSceneCommand(CLI::App& app);
 

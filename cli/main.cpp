@@ -45,8 +45,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag(
       "--version", [] { return versionText(); }, "Print version, build type and Vulkan device");
-  for (const auto add : {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand,
-                         addSceneCommand, addRenderCommand, addBenchCommand, addPeopleCommand}) {
+  for (const auto add :
+       {addTagCommand, addAddCommand, addRemoveCommand, addReportCommand, addInspectCommand, addSceneCommand,
+        addRenderCommand, addBenchCommand, addAuthorCommand, addPeopleCommand}) {
     add(app);
   }
   try {

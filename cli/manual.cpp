@@ -49,6 +49,13 @@ constexpr Manual kManuals[] = {
      "or a count differs between rounds.",
      "SCENE is described in docs/scene.md; no picture is written. What is written is described in "
      "docs/measuring.md."},
+    {"author",
+     "Makes outfits for a template from recipes: shells offset from its skin, cut and coloured as the recipe "
+     "says, moved by the template's joints. Any template with regions and joints will do. Each outfit holds "
+     "the "
+     "template's complete body, so `ensemble tag --occlusion auto` takes it.",
+     "Reads recipes (docs/authoring.md) and a template. Writes FOLDER/NAME.glb for each recipe, whole or not "
+     "at all."},
     {"people", "Makes template people, with outfits and clips, from parameters.",
      "CONFIG tells of each person sex, age (young, adult or old), height (1.4 to 2.1 metres), girth and "
      "build (-1 "

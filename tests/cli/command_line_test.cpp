@@ -40,7 +40,8 @@ class CommandLine : public ::testing::Test {
 TEST_F(CommandLine, HelpAndVersion) {
   const ProgramResult help = run("--help");
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"tag", "add", "remove", "report", "inspect", "render", "bench", "people"}) {
+  for (const char* command :
+       {"tag", "add", "remove", "report", "inspect", "render", "bench", "author", "people"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("  ") + command)) << "not in --help";
     const ProgramResult own = run(std::string(command) + " --help");
     EXPECT_EQ(own.exit_code, 0) << command;

@@ -209,6 +209,27 @@ RENDERING = [
     ("render scene.yaml -o a.bmp", 2, "-o a.bmp: pictures can't be written as '.bmp'; write .png, .exr or .mp4: name.png, "
                                       "name_%04d.exr, name.mp4, or a folder dir/"),
 ]
+RECIPE = """version: 1
+name: top
+slot: upper
+garments:
+  - name: top
+    kind: body
+    hem: 0.4
+    neck: {rise: 0}
+"""
+AUTHORING = [
+    ("author none.yaml --template template.glb -o items", 3, "none.yaml: no such file; check the path"),
+    ("author recipe.yaml --template none.glb -o items", 3, "none.glb: no such file; check the path"),
+    ("author recipe.yaml --template text.glb -o items", 3, "text.glb: " + GLBS["text.glb"]),
+    ("author recipe.yaml recipe.yaml --template template.glb -o items", 3,
+     "recipe.yaml: its outfit is named 'top', as that of recipe.yaml; give each recipe a name of its own"),
+    ("author recipe.yaml --template template.glb -o items", 3,
+     "recipe.yaml: 5:5: garment 'top' needs the neck, for which the template has no joint ('neck_01', for example); "
+     "name the joint under joints, or dress another template"),
+    ("author scene.yaml --template template.glb -o items", 3,
+     "scene.yaml: 2:1: unknown key 'wardrobe'; write 'version' (known: version, name, slot, layer, joints, garments)"),
+]
 DRAWING = [("render scene.yaml -o /proc/a.png", 1,
             "/proc/a.png: can't be written: No such file or directory; make its folder first"),
            ("render scene.yaml -o a.png --dump-crowd file/a.csv", 1,
@@ -278,7 +299,8 @@ def check_all(table):
     for name, message in GLBS.items():
         for command in ("inspect {}", "tag {} -o new", "tag template.glb {} -o new", "add w {}"):
             table.check(command.format(name), 3, f"{name}: {message}")
-    for row in TAGGING + OUTPUTS + RENDERING:
+    (table.folder / "recipe.yaml").write_text(RECIPE)
+    for row in TAGGING + OUTPUTS + RENDERING + AUTHORING:
         table.check(*row)
     for row in ACCEPTED:
         table.check(*row, writes=True)

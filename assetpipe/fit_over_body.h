@@ -1,0 +1,21 @@
+// Cloth that a coarse mesh let sink into the body, lifted out again.
+#pragma once
+
+#include "assetpipe/body_surface.h"
+#include "assetpipe/field_mesher.h"
+
+namespace ensemble {
+
+/// Moves vertices outwards until they, the middles of edges and faces keep `clearance` metres off the body,
+/// and no corner or edge of the body pokes through a face that covers it. A few rounds; what is left after
+/// them countPokes tells.
+void fitOverBody(FieldMesh& cloth, const BodySurface& body, float clearance);
+
+/// What still sticks through, by more than `tolerance` metres.
+struct Pokes {
+  std::size_t cloth_in_body = 0;  ///< vertices of the cloth inside the body
+  std::size_t body_in_front = 0;  ///< vertices of the body in front of cloth that covers them
+};
+Pokes countPokes(const FieldMesh& cloth, const BodySurface& body, float tolerance);
+
+}  // namespace ensemble
