@@ -95,7 +95,7 @@ class BodyCloth {
            const float rise = up - neck.rise * s;
            // The shoulders may stand higher than the neck's edge, but not by much; what does is chin.
            const float chin =
-               std::min(up - (std::max(neck.rise, 0.0f) + 0.025f) * s, wide + (0.14f - neck.width) * s);
+               std::min(up - (std::max(neck.rise, 0.0f) + 0.025f) * s, 0.14f * s - std::abs(from.x));
            float value = std::max(std::min(rise, wide), chin);
            if (neck.drop > 0.0f) {
              const Vec3 radii = s * Vec3(neck.width + 0.010f, neck.drop, 0.125f);

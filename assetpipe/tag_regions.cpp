@@ -318,10 +318,27 @@ class OutfitTagger {
     const Item* worn = &item_;
     authored_ = item_.visible;
     holes_ = findHoles(body_, std::span(&worn, 1), options_.hidden);
+    const FaceHoles bare = findHoles(body_, {}, options_.hidden);
+    for (const Region& region : body_.regions) keepUnclothed(region, bare);
     for (std::size_t f = 0; f < body_.faces.size(); ++f) {
       std::uint8_t& visible = item_.visible[FaceId(f)];
       const bool may_show = own_.occlusion == Occlusion::kAuto || visible != 0;
       visible = holes_->faces[FaceId(f)].is_kept && may_show ? 1 : 0;
+    }
+  }
+
+  /// A region of which the clothes hide nothing stays whole, though the body itself hides some of it (the
+  /// inside of a mouth): else every item would have a list of its own for it.
+  void keepUnclothed(const Region& region, const FaceHoles& bare) {
+    const auto is_clothed = [&](std::uint32_t f) {
+      const FaceId face(region.first_face + f);
+      return bare.faces[face].is_kept && !holes_->faces[face].is_kept;
+    };
+    for (std::uint32_t f = 0; f < region.face_count; ++f) {
+      if (is_clothed(f)) return;
+    }
+    for (std::uint32_t f = 0; f < region.face_count; ++f) {
+      holes_->faces[FaceId(region.first_face + f)].is_kept = true;
     }
   }
 

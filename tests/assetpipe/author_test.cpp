@@ -127,7 +127,7 @@ TEST_P(Authoring, DressesTheBodyAndTagsAgain) {
     std::vector<std::string> warnings;
     const RawAsset read = readGlb(writeGlb(outfit.asset), name);
     const Item item = tagOutfit(read, person.body, {}, name, "outfit.glb", warnings);
-    EXPECT_EQ(item.slot, recipe.slot);
+    EXPECT_EQ(toString(item.slot), recipe.slot);
     EXPECT_EQ(item.layer, recipe.layer);
     ASSERT_EQ(item.garments.size(), 1u);
     EXPECT_EQ(item.garments[0].name, "garment." + recipe.garments[0].name);

@@ -232,6 +232,37 @@ TEST(TagRegions, AnItemMayAskForAKindOfOcclusion) {
                      "authored, auto or both");
 }
 
+// A face inside the legs, which no one sees with or without clothes.
+TEST(TagRegions, WhatTheBodyItselfHidesLeavesItsRegionWhole) {
+  const auto withInnerFace = [](RawAsset asset) {
+    for (RawMeshNode& node : asset.meshes) {
+      for (RawPrimitive& primitive : node.primitives) {
+        if (asset.materials[primitive.material].name != "legs") continue;
+        const auto first = static_cast<std::uint32_t>(primitive.vertices.size());
+        for (const float x : {-0.01f, 0.0f, 0.01f}) {
+          RawVertex vertex = primitive.vertices[0];
+          vertex.position = Vec3(x, x == 0.0f ? 0.32f : 0.3f, 0.0f);
+          primitive.vertices.push_back(vertex);
+        }
+        primitive.faces.push_back({first, first + 1, first + 2});
+      }
+    }
+    return asset;
+  };
+  std::vector<std::string> warnings;
+  const TemplateBody body = segmentTemplate(withInnerFace(testing::tubeTemplate()), {}, "tube.glb", warnings);
+  TagOptions rays;
+  rays.occlusion = Occlusion::kAuto;
+  const RawAsset outfit = withInnerFace(testing::tubeOutfit([](int, int) { return true; }, 0.203f));
+  const Item item = tagOutfit(outfit, body, rays, "tunic", "tunic.glb", warnings);
+  EXPECT_EQ(item.tags[RegionId(0)].visibility, Visibility::kFull);
+  EXPECT_EQ(item.tags[RegionId(0)].visible_faces, 65u);
+  EXPECT_NE(item.tags[RegionId(1)].visibility, Visibility::kFull);
+  const FaceHoles bare = findHoles(body, {}, {});
+  EXPECT_EQ(std::count_if(bare.faces.begin(), bare.faces.end(), [](const FaceHole& f) { return !f.is_kept; }),
+            1);
+}
+
 TEST(TagRegions, WarnsOfWhatIsHardlyMeant) {
   std::vector<std::string> warnings;
   RawAsset far = halfDressed();
