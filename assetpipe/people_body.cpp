@@ -106,11 +106,12 @@ BodyRegion bodyRegion(const Figure& figure, const Vec3& p) {
 namespace {
 
 /// The left half of the surface as the grid has it, cut along the regions' borders.
-FieldMesh meshLeftHalf(const Figure& figure, const Field& body) {
+/// @param cell the grid's step, metres for a figure of scale 1
+FieldMesh meshLeftHalf(const Figure& figure, const Field& body, float cell) {
   FieldMesherOptions mesher;
   mesher.low = {0.0f, -0.02f, -0.35f * figure.scale};
   mesher.high = {0.85f * figure.scale, figure.head_top.y + 0.03f, 0.35f * figure.scale};
-  mesher.cell = 0.0034f * figure.scale;
+  mesher.cell = cell * figure.scale;
   mesher.half = true;
   FieldMesh half = meshField(body, mesher);
   using Border = float (*)(const Figure&, const Vec3&);
@@ -131,12 +132,13 @@ FieldMesh meshLeftHalf(const Figure& figure, const Field& body) {
 
 FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count) {
   const Field body = [&figure](const Vec3& p) { return figure.body(p); };
-  const FieldMesh half = meshLeftHalf(figure, body);
   // Where two parts of the body lie close, as in an armpit, few triangles may cut each other: there it
-  // takes more of them, and it is tried again.
-  constexpr int kRounds = 5;
+  // takes more of them, and it is tried again. A fine furrow (between the lips) may fold where it meets the
+  // grid unluckily: each time the grid is another.
+  constexpr int kRounds = 8;
   std::vector<Vec3> narrow;
   for (int round = 1;; ++round) {
+    const FieldMesh half = meshLeftHalf(figure, body, 0.0034f - 0.00005f * static_cast<float>(round - 1));
     SimplifySurfaceOptions simplify;
     simplify.target_faces = face_count / 2;
     simplify.importance = [&](const Vec3& p) {

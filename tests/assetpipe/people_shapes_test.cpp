@@ -31,6 +31,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Shape{"SlightHeavyYoungWoman", {Sex::kFemale, 1.55f, -1.0f, 1.0f, AgeGroup::kYoung}},
                       Shape{"ShortBroadHeavyOldMan", {Sex::kMale, 1.40f, 1.0f, 1.0f, AgeGroup::kOld}},
                       Shape{"TallSlightThinYoungMan", {Sex::kMale, 2.10f, -1.0f, -1.0f, AgeGroup::kYoung}},
+                      Shape{"PlainWoman", {Sex::kFemale, 1.66f, 0.0f, 0.0f, AgeGroup::kAdult}},
+                      Shape{"WomanOfFewFaces", {Sex::kFemale, 1.66f, 0.0f, 0.0f, AgeGroup::kAdult}, 1500},
                       Shape{"ManOfFewFaces", {Sex::kMale, 1.78f, 0.0f, 0.0f, AgeGroup::kAdult}, 1500}),
     [](const auto& shape) { return std::string(shape.param.name); });
 
