@@ -48,7 +48,7 @@ else
   "$project/scripts/build.sh" "${build_options[@]}"
   "$project/tests/proofs/install_node_packages.sh" "$project/build/proofs"
   if [ $full = yes ]; then
-    runTests "$project/build"
+    ENSEMBLE_FULL_TESTS=1 runTests "$project/build"
     "$project/scripts/build.sh" "${build_options[@]}" --sanitize address,undefined
     runTests "$project/build-address-undefined" -LE 'proof|full|lint'
   else
