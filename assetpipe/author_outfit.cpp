@@ -131,7 +131,8 @@ AuthoredOutfit authorOutfit(const Recipe& recipe, const RawAsset& asset, const A
   outfit.asset.dropped.clear();
   outfit.asset.warnings.clear();
   outfit.asset.scene_extras_json =
-      nlohmann::ordered_json({{"ensemble", {{"slot", recipe.slot}, {"layer", recipe.layer}}}}).dump();
+      nlohmann::ordered_json({{"ensemble", {{"slot", toString(recipe.slot)}, {"layer", recipe.layer}}}})
+          .dump();
   const TailorFrame frame(body, marks);
   for (const GarmentRecipe& garment : recipe.garments) {
     const FieldMesh mesh = meshCloth(frame, garment, designCloth(frame, garment));

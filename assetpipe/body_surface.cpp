@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "assetpipe/ray_device.h"
 #include "core/check.h"
-#include "core/input_error.h"
 
 namespace ensemble {
 namespace {
@@ -74,11 +74,10 @@ bool takeFace(RTCPointQueryFunctionArguments* arguments) {
 }  // namespace
 
 struct BodySurface::State {
-  RTCDevice device = nullptr;
+  RayDevice device;
   RTCScene scene = nullptr;
   ~State() {
     if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
   }
 };
 
@@ -145,19 +144,8 @@ void BodySurface::findNeighbours() {
 }
 
 void BodySurface::buildScene() {
-  state_->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!state_->device) throw SystemError({"", "", "Embree could not be started", "close other programs"});
-  state_->scene = rtcNewScene(state_->device);
-  RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), positions_.size()));
-  auto* indices = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), faces_.size()));
-  if (!vertices || !indices) {
-    throw SystemError({"", "", "there is no memory for a body", "close other programs"});
-  }
-  std::copy(positions_.begin(), positions_.end(), vertices);
-  std::copy(faces_.begin(), faces_.end(), indices);
+  state_->scene = rtcNewScene(state_->device.get());
+  const RTCGeometry geometry = state_->device.newTriangles(positions_, faces_);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(state_->scene, geometry);
   rtcReleaseGeometry(geometry);

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <map>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "assetpipe/ray_scene.h"
 #include "core/clip.h"
+#include "core/parallel.h"
 
 namespace ensemble {
 namespace {
@@ -154,15 +153,16 @@ class Search {
   }
 
   FaceHoles find() {
+    const unsigned threads = threadCount(options_.jobs);
     for (std::size_t first = 0; first < found_.poses.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, found_.poses.size() - first);
       std::vector<std::optional<Lookout>> lookouts(count);
-      forEach(count, [&](std::size_t i) {
+      forEachOnThreads(threads, count, [&](std::size_t i) {
         const std::vector<Mat4> matrices = matricesAt(body_, found_.poses[first + i]);
         lookouts[i].emplace(device_, body_, items_, matrices, options_,
                             static_cast<std::uint32_t>(first + i));
       });
-      forEach(found_.faces.size(), [&](std::size_t face) {
+      forEachOnThreads(threads, found_.faces.size(), [&](std::size_t face) {
         for (std::size_t i = 0; i < count; ++i)
           look(*lookouts[i], first + i, static_cast<std::uint32_t>(face));
       });
@@ -187,20 +187,6 @@ class Search {
     face.is_kept = face.share > options_.hole_share || face.area > options_.hole_area;
     face.is_plain =
         face.share > kPlainShare * options_.hole_share || face.area > kPlainArea * options_.hole_area;
-  }
-
-  /// Calls work(0 .. count - 1) from all threads.
-  template <class Work>
-  void forEach(std::size_t count, const Work& work) const {
-    std::atomic<std::size_t> next{0};
-    const auto run = [&] {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    const unsigned jobs =
-        options_.jobs > 0 ? options_.jobs : std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> threads;
-    for (unsigned t = 1; t < jobs; ++t) threads.emplace_back(run);
-    run();
   }
 
   const TemplateBody& body_;

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
 #include <map>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "assetpipe/people_body.h"
@@ -21,6 +18,7 @@
 #include "core/clip.h"
 #include "core/gltf_file.h"
 #include "core/input_error.h"
+#include "core/parallel.h"
 
 namespace ensemble {
 namespace {
@@ -128,28 +126,10 @@ class PersonMaker {
     }
     std::vector<std::pair<const std::string, MadeGarment>*> entries;
     for (auto& entry : garments_) entries.push_back(&entry);
-    std::vector<std::exception_ptr> errors(entries.size());
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-      for (std::size_t i = next++; i < entries.size(); i = next++) {
-        try {
-          const auto& name = entries[i]->first;
-          entries[i]->second =
-              makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, name));
-        } catch (...) {
-          errors[i] = std::current_exception();
-        }
-      }
-    };
-    {
-      const unsigned threads = jobs > 0 ? jobs : std::max(1u, std::thread::hardware_concurrency());
-      std::vector<std::jthread> others;
-      for (unsigned t = 1; t < std::min<std::size_t>(threads, entries.size()); ++t) others.emplace_back(work);
-      work();
-    }
-    for (const std::exception_ptr& error : errors) {
-      if (error) std::rethrow_exception(error);
-    }
+    forEachOnThreads(threadCount(jobs), entries.size(), [&](std::size_t i) {
+      entries[i]->second =
+          makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, entries[i]->first));
+    });
   }
 
   MadeOutfit dress(const OutfitPlan& plan) const {

@@ -46,32 +46,13 @@ Clip makeWalkClip(const Figure& figure, const RawSkeleton& skeleton) {
   Gait gait;
   gait.seconds = kWalkSeconds;
   gait.speed = walkSpeed(figure);
-  const FootPath path(figure, gait);
   const float s = figure.scale;
-  constexpr std::uint32_t kSteps = kWalkKeys - 1;
-  const auto pelvisOffset = [&](float phase) {
+  return makeStrideClip("walk", figure, skeleton, gait, kWalkKeys, [&](Poser& poser, float phase) {
     // Highest in the middle of each stance, over the standing leg.
-    return Vec3(0.017f * s * wave(phase, 0.30f), -0.022f * s * wave(2.0f * phase, 0.14f),
-                0.006f * s * wave(2.0f * phase, 0.0f));
-  };
-  // As high as the legs allow over the whole stride.
-  const float drop = pelvisDrop(figure, skeleton, path, gait, kSteps, [&](Poser& poser, float phase) {
-    poser.movePelvis(pelvisOffset(phase));
+    poser.movePelvis(Vec3(0.017f * s * wave(phase, 0.30f), -0.022f * s * wave(2.0f * phase, 0.14f),
+                          0.006f * s * wave(2.0f * phase, 0.0f)));
     poseWalkingTrunk(poser, phase);
   });
-  std::vector<std::vector<Transform>> keys;
-  for (std::uint32_t key = 0; key < kSteps; ++key) {
-    const float phase = static_cast<float>(key) / static_cast<float>(kSteps);
-    Poser poser(figure, skeleton);
-    poser.movePelvis(pelvisOffset(phase) - Vec3(0.0f, drop, 0.0f));
-    poseWalkingTrunk(poser, phase);
-    placeFoot(poser, 0, path.at(phase));
-    placeFoot(poser, kRightLeg, path.at(wrapped(phase + 0.5f)));
-    keys.push_back(poser.local());
-  }
-  Clip clip = toClip("walk", kWalkSeconds, keys);
-  clip.ground_speed = gait.speed;
-  return clip;
 }
 
 Clip makeIdleClip(const Figure& figure, const RawSkeleton& skeleton) {

@@ -180,4 +180,50 @@ Clip toClip(const std::string& name, float seconds, const std::vector<std::vecto
   return clip;
 }
 
+namespace {
+
+/// How far the pelvis must go down for standing feet to be reached, metres: the most over the clip.
+float pelvisDrop(const Figure& figure, const RawSkeleton& skeleton, const FootPath& path, const Gait& gait,
+                 std::uint32_t steps, const PoseTrunk& pose) {
+  float drop = 0.0f;
+  for (std::uint32_t key = 0; key < steps; ++key) {
+    const float now = static_cast<float>(key) / static_cast<float>(steps);
+    Poser poser(figure, skeleton);
+    pose(poser, now);
+    for (const int side : {0, static_cast<int>(kRightLeg)}) {
+      const float phase = wrapped(now + (side == 0 ? 0.0f : 0.5f));
+      if (phase > gait.toe_off - 0.07f && phase < 0.93f) continue;  // it hangs
+      Vec3 ankle = path.at(phase).ankle;
+      if (side != 0) ankle.x = -ankle.x;
+      const Vec3 reach = poser.hip(side) - ankle;
+      const float allowed = 0.9985f * poser.legReach();
+      const float flat = reach.x * reach.x + reach.z * reach.z;
+      drop = std::max(drop, reach.y - std::sqrt(std::max(allowed * allowed - flat, 0.0f)));
+    }
+  }
+  return drop;
+}
+
+}  // namespace
+
+Clip makeStrideClip(const std::string& name, const Figure& figure, const RawSkeleton& skeleton,
+                    const Gait& gait, std::uint32_t keys, const PoseTrunk& pose) {
+  const std::uint32_t steps = keys - 1;
+  const FootPath path(figure, gait);
+  const float drop = pelvisDrop(figure, skeleton, path, gait, steps, pose);
+  std::vector<std::vector<Transform>> poses;
+  for (std::uint32_t key = 0; key < steps; ++key) {
+    const float phase = static_cast<float>(key) / static_cast<float>(steps);
+    Poser poser(figure, skeleton);
+    pose(poser, phase);
+    poser.lowerPelvis(drop);
+    placeFoot(poser, 0, path.at(phase));
+    placeFoot(poser, kRightLeg, path.at(wrapped(phase + 0.5f)));
+    poses.push_back(poser.local());
+  }
+  Clip clip = toClip(name, gait.seconds, poses);
+  clip.ground_speed = gait.speed;
+  return clip;
+}
+
 }  // namespace ensemble

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -104,28 +105,12 @@ class FootPath {
 /// @param side 0 or kRightLeg
 void placeFoot(Poser& poser, int side, const FootPlace& place);
 
-/// How far the pelvis must go down for standing feet to be reached, metres: the most over the clip.
-/// `pose` poses everything above the legs at a phase.
-template <class Pose>
-float pelvisDrop(const Figure& figure, const RawSkeleton& skeleton, const FootPath& path, const Gait& gait,
-                 std::uint32_t steps, const Pose& pose) {
-  float drop = 0.0f;
-  for (std::uint32_t key = 0; key < steps; ++key) {
-    const float now = static_cast<float>(key) / static_cast<float>(steps);
-    Poser poser(figure, skeleton);
-    pose(poser, now);
-    for (const int side : {0, static_cast<int>(kRightLeg)}) {
-      const float phase = wrapped(now + (side == 0 ? 0.0f : 0.5f));
-      if (phase > gait.toe_off - 0.07f && phase < 0.93f) continue;  // it hangs
-      Vec3 ankle = path.at(phase).ankle;
-      if (side != 0) ankle.x = -ankle.x;
-      const Vec3 reach = poser.hip(side) - ankle;
-      const float allowed = 0.9985f * poser.legReach();
-      const float flat = reach.x * reach.x + reach.z * reach.z;
-      drop = std::max(drop, reach.y - std::sqrt(std::max(allowed * allowed - flat, 0.0f)));
-    }
-  }
-  return drop;
-}
+/// Poses everything above the legs at a phase.
+using PoseTrunk = std::function<void(Poser&, float phase)>;
+
+/// A clip of one stride, in which both feet go as the gait tells, the right one half a stride after the left
+/// one, and the pelvis is as high as the legs allow over all of it.
+Clip makeStrideClip(const std::string& name, const Figure& figure, const RawSkeleton& skeleton,
+                    const Gait& gait, std::uint32_t keys, const PoseTrunk& pose);
 
 }  // namespace ensemble

@@ -59,24 +59,8 @@ float runSpeed(const Figure& figure) {
 }
 
 Clip makeRunClip(const Figure& figure, const RawSkeleton& skeleton) {
-  constexpr std::uint32_t kSteps = kRunKeys - 1;
-  const Gait gait = runGait(figure);
-  const FootPath path(figure, gait);
-  const float drop = pelvisDrop(figure, skeleton, path, gait, kSteps,
-                                [&](Poser& poser, float phase) { poseRunner(poser, figure, phase); });
-  std::vector<std::vector<Transform>> keys;
-  for (std::uint32_t key = 0; key < kSteps; ++key) {
-    const float phase = static_cast<float>(key) / static_cast<float>(kSteps);
-    Poser poser(figure, skeleton);
-    poseRunner(poser, figure, phase);
-    poser.lowerPelvis(drop);
-    placeFoot(poser, 0, path.at(phase));
-    placeFoot(poser, kRightLeg, path.at(wrapped(phase + 0.5f)));
-    keys.push_back(poser.local());
-  }
-  Clip clip = toClip("run", kRunSeconds, keys);
-  clip.ground_speed = gait.speed;
-  return clip;
+  return makeStrideClip("run", figure, skeleton, runGait(figure), kRunKeys,
+                        [&](Poser& poser, float phase) { poseRunner(poser, figure, phase); });
 }
 
 }  // namespace ensemble

@@ -1,11 +1,8 @@
 #include "assetpipe/pipeline.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
 #include <set>
-#include <thread>
 
 #include "assetpipe/ground_speed.h"
 #include "assetpipe/transfer_clips.h"
@@ -16,6 +13,7 @@
 #include "core/input_error.h"
 #include "core/log.h"
 #include "core/nearest_name.h"
+#include "core/parallel.h"
 #include "core/progress.h"
 
 namespace ensemble {
@@ -104,34 +102,18 @@ OutfitFile readOutfit(const fs::path& file, const TaggingTemplate& body, const P
 std::vector<OutfitFile> readOutfits(const std::vector<fs::path>& files, const TaggingTemplate& body,
                                     const PipelineOptions& options) {
   std::vector<OutfitFile> outfits(files.size());
-  std::vector<std::exception_ptr> errors(files.size());
-  const unsigned cores = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  const unsigned threads = threadCount(options.jobs);
   // What threads the outfits leave idle look for hidden faces.
   PipelineOptions options_of_one = options;
   options_of_one.tag.hidden.jobs =
-      std::max(1u, cores / static_cast<unsigned>(std::clamp<std::size_t>(files.size(), 1, cores)));
-  std::atomic<std::size_t> next{0};
+      std::max(1u, threads / static_cast<unsigned>(std::clamp<std::size_t>(files.size(), 1, threads)));
   std::mutex progress_mutex;
   Progress progress("tagging", files.size());
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size(); i = next++) {
-      try {
-        outfits[i] = readOutfit(files[i], body, options_of_one);
-      } catch (...) {
-        errors[i] = std::current_exception();
-      }
-      const std::lock_guard lock(progress_mutex);
-      progress.advance();
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (unsigned t = 1; t < std::min<std::size_t>(cores, files.size()); ++t) threads.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
+  forEachOnThreads(threads, files.size(), [&](std::size_t i) {
+    outfits[i] = readOutfit(files[i], body, options_of_one);
+    const std::lock_guard lock(progress_mutex);
+    progress.advance();
+  });
   return outfits;
 }
 

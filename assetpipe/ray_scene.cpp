@@ -2,10 +2,7 @@
 
 #include <embree3/rtcore.h>
 
-#include <cstring>
-
 #include "core/clip.h"
-#include "core/input_error.h"
 
 namespace ensemble {
 namespace {
@@ -59,20 +56,6 @@ RTCRay makeRay(Vec3 from, Vec3 direction, float most) {
 
 }  // namespace
 
-struct RayDevice::State {
-  RTCDevice device = nullptr;
-};
-
-RayDevice::RayDevice() : state_(std::make_unique<State>()) {
-  // We have threads of our own.
-  state_->device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!state_->device) {
-    throw SystemError({"", "Embree", "can't be started on this processor", "use --occlusion authored"});
-  }
-}
-
-RayDevice::~RayDevice() { rtcReleaseDevice(state_->device); }
-
 struct RayScene::State {
   RTCScene scene = nullptr;  ///< body and cloth
   RTCScene cloth = nullptr;
@@ -86,16 +69,10 @@ struct RayScene::State {
   State& operator=(const State&) = delete;
 
   /// @param filter none: both sides are there
-  void add(RTCDevice device, std::span<const Vec3> vertices, std::span<const Triangle> faces,
+  void add(const RayDevice& device, std::span<const Vec3> vertices, std::span<const Triangle> faces,
            RTCFilterFunctionN filter, bool is_cloth) {
     if (faces.empty()) return;
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* to = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
-                                       vertices.size());
-    std::memcpy(to, vertices.data(), vertices.size_bytes());
-    to = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle),
-                                 faces.size());
-    std::memcpy(to, faces.data(), faces.size_bytes());
+    const RTCGeometry geometry = device.newTriangles(vertices, faces);
     rtcSetGeometryOccludedFilterFunction(geometry, filter);
     rtcSetGeometryIntersectFilterFunction(geometry, filter);
     rtcCommitGeometry(geometry);
@@ -107,15 +84,14 @@ struct RayScene::State {
 
 RayScene::RayScene(const RayDevice& device, const TemplateBody& body, std::span<const Item* const> items,
                    std::span<const Mat4> matrices)
-    : state_(std::make_unique<State>(device.state_->device)), body_(posed(body.vertices.raw(), matrices)) {
-  const RTCDevice embree = device.state_->device;
-  state_->add(embree, body_, body.faces.raw(), filterBody, false);
+    : state_(std::make_unique<State>(device.get())), body_(posed(body.vertices.raw(), matrices)) {
+  state_->add(device, body_, body.faces.raw(), filterBody, false);
   for (const Item* item : items) {
     for (const Garment& garment : item->garments) {
       for (const ItemPart& part : garment.parts) {
         const RawMaterial& material = item->materials[part.material];
         if (material.alpha_mode != AlphaMode::kOpaque) continue;
-        state_->add(embree, posed(part.vertices, matrices), part.faces,
+        state_->add(device, posed(part.vertices, matrices), part.faces,
                     material.double_sided ? nullptr : filterSingleSided, true);
       }
     }

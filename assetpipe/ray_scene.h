@@ -1,4 +1,4 @@
-// A dressed body in one pose, asked by rays. The only user of Embree.
+// A dressed body in one pose, asked by rays (Embree).
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "assetpipe/ray_device.h"
 #include "core/wardrobe.h"
 
 namespace ensemble {
-
-/// Shared by all scenes; made once.
-class RayDevice {
- public:
-  RayDevice();
-  ~RayDevice();
-  RayDevice(const RayDevice&) = delete;
-  RayDevice& operator=(const RayDevice&) = delete;
-
- private:
-  friend class RayScene;
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 /// What a ray meets of a body.
 struct BodyHit {

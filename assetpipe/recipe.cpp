@@ -321,8 +321,7 @@ void readLooks(const YamlValue& value, const std::filesystem::path& folder, Garm
   }
 }
 
-GarmentRecipe readGarment(const YamlValue& value, const std::filesystem::path& folder,
-                          const std::string& slot) {
+GarmentRecipe readGarment(const YamlValue& value, const std::filesystem::path& folder, Slot slot) {
   GarmentRecipe garment;
   garment.mark = value.mark();
   const auto name = value.find("name");
@@ -334,7 +333,7 @@ GarmentRecipe readGarment(const YamlValue& value, const std::filesystem::path& f
   garment.name = readName(*name);
   garment.kind = static_cast<GarmentKind>(kind->word({"body", "shoes", "head"}));
   expectKindKeys(value, garment.kind);
-  garment.material = garment.kind == GarmentKind::kShoes ? "shoes" : slot == "hair" ? "hair" : "cloth";
+  garment.material = garment.kind == GarmentKind::kShoes ? "shoes" : slot == Slot::kHair ? "hair" : "cloth";
   if (const auto material = value.find("material"))
     garment.material = oneOf(*material, {"cloth", "hair", "shoes"});
   readLooks(value, folder, garment);
@@ -391,7 +390,7 @@ Recipe parseRecipe(const std::string& text, const std::filesystem::path& file) {
   if (!slot) root.fail("the file has no slot", "add slot: upper, for example");
   if (!garments) root.fail("the file has no garments", "add a list of garments (docs/authoring.md)");
   recipe.name = readName(*name);
-  recipe.slot = oneOf(*slot, {"hair", "head", "upper", "lower", "full", "feet", "over"});
+  recipe.slot = kAllSlots[slot->word(kSlotNames)];
   if (const auto layer = root.find("layer")) {
     const double number = layer->number({.min = -1000.0, .max = 1000.0});
     recipe.layer = static_cast<int>(number);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "core/slots.h"
 #include "core/source_mark.h"
 
 namespace ensemble {
@@ -137,7 +138,8 @@ struct GarmentRecipe {
 
 struct Recipe {
   std::filesystem::path file;
-  std::string name, slot;
+  std::string name;
+  Slot slot = Slot::kFull;
   int layer = 0;
   std::map<std::string, std::string> joints;  ///< landmark -> joint, for skeletons with names of their own
   std::map<std::string, SourceMark> joint_marks;

@@ -32,7 +32,7 @@ nlohmann::ordered_json figuresOf(const Recipe& recipe, const std::string& file,
   const auto millimetres = [](float metres) { return std::round(static_cast<double>(metres) * 1e5) / 100.0; };
   nlohmann::ordered_json figures = {{"name", recipe.name},
                                     {"file", file},
-                                    {"slot", recipe.slot},
+                                    {"slot", toString(recipe.slot)},
                                     {"layer", recipe.layer},
                                     {"garments", nlohmann::ordered_json::array()}};
   for (const GarmentFigures& garment : outfit.garments) {
@@ -104,7 +104,7 @@ void run(const AuthorArguments& arguments) {
     std::size_t faces = 0;
     for (const GarmentFigures& garment : outfit.garments) faces += garment.faces;
     text += fmt::format("{}: {} garments, {} faces, slot {}, layer {}\n", file.string(),
-                        outfit.garments.size(), faces, recipe.slot, recipe.layer);
+                        outfit.garments.size(), faces, toString(recipe.slot), recipe.layer);
     progress.advance();
   }
   writeFigures(arguments.common, figures);

@@ -120,7 +120,7 @@ void readWear(const YamlValue& value, SceneCrowd& crowd) {
   if (!crowd.outfits.empty()) {
     value.fail("crowd.outfits and crowd.wear both tell what people wear", "remove one of them");
   }
-  value.expectKeys({"hair", "head", "upper", "lower", "full", "feet", "over"});
+  value.expectKeys(kSlotNames);
   for (const Slot slot : kAllSlots) {
     if (const auto weights = value.find(toString(slot))) readSlotWeights(*weights, slot, crowd);
   }

@@ -5,25 +5,23 @@
 namespace ensemble {
 namespace {
 
-constexpr std::array<const char*, kSlotCount> kNames = {"hair", "head", "upper", "lower",
-                                                        "full", "feet", "over"};
-
 bool isHalf(Slot slot) { return slot == Slot::kUpper || slot == Slot::kLower; }
 
 }  // namespace
 
-const char* toString(Slot slot) { return kNames[static_cast<std::size_t>(slot)]; }
+const char* toString(Slot slot) { return kSlotNames[static_cast<std::size_t>(slot)].data(); }
 
 std::optional<Slot> parseSlot(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return kAllSlots[static_cast<std::size_t>(found - kNames.begin())];
+  const auto found = std::find(kSlotNames.begin(), kSlotNames.end(), name);
+  if (found == kSlotNames.end()) return std::nullopt;
+  return kAllSlots[static_cast<std::size_t>(found - kSlotNames.begin())];
 }
 
 std::string slotNames() {
   std::string names;
   for (std::size_t i = 0; i < kSlotCount; ++i) {
-    names += std::string(i == 0 ? "" : i + 1 < kSlotCount ? ", " : " or ") + kNames[i];
+    names += i == 0 ? "" : i + 1 < kSlotCount ? ", " : " or ";
+    names += kSlotNames[i];
   }
   return names;
 }

@@ -15,8 +15,10 @@ enum class Slot : std::uint8_t { kHair, kHead, kUpper, kLower, kFull, kFeet, kOv
 inline constexpr std::array kAllSlots = {Slot::kHair, Slot::kHead, Slot::kUpper, Slot::kLower,
                                          Slot::kFull, Slot::kFeet, Slot::kOver};
 inline constexpr std::size_t kSlotCount = kAllSlots.size();
+inline constexpr std::array<std::string_view, kSlotCount> kSlotNames = {"hair", "head", "upper", "lower",
+                                                                        "full", "feet", "over"};
 
-const char* toString(Slot slot);  ///< "hair", "head", "upper", "lower", "full", "feet", "over"
+const char* toString(Slot slot);  ///< one of kSlotNames
 std::optional<Slot> parseSlot(std::string_view name);
 std::string slotNames();  ///< for messages: "hair, head, upper, lower, full, feet or over"
 

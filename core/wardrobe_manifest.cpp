@@ -1,16 +1,13 @@
 // wardrobe.json (interfaces.md, "A wardrobe folder").
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
 #include "core/input_error.h"
 #include "core/json_limits.h"
+#include "core/json_schema.h"
 #include "core/nearest_name.h"
 #include "core/wardrobe_files.h"
 #include "embedded/kWardrobeJsonSchema.h"
@@ -92,25 +89,11 @@ void checkVersion(const json& document, const std::string& file) {
 }
 
 void checkSchema(const json& document, const std::string& file) {
-  valijson::Schema schema;
-  valijson::SchemaParser parser;
-  const json schema_document = json::parse(kWardrobeJsonSchema);
-  parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
-  valijson::Validator validator;
-  valijson::ValidationResults results;
-  if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results)) return;
-
-  // The last error added is the most general, the first the most exact.
-  valijson::ValidationResults::Error error;
-  results.popError(error);
+  const std::optional<SchemaError> error = findSchemaError(document, kWardrobeJsonSchema);
+  if (!error) return;
   std::string where;
-  for (const std::string& step : error.context) {
-    if (step == "<root>") continue;
-    where += "/" + (step.size() > 2 && step.front() == '[' ? step.substr(1, step.size() - 2) : step);
-  }
-  std::string what = error.description;  // a sentence; our messages have no full stop
-  if (what.ends_with('.')) what.pop_back();
-  throw InputError({file, where.empty() ? "/" : where, what, kMakeAgain});
+  for (const std::string& step : error->path) where += "/" + step;
+  throw InputError({file, where.empty() ? "/" : where, error->what, kMakeAgain});
 }
 
 void checkFileName(const std::string& name, const std::string& file, const std::string& where) {

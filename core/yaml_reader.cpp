@@ -221,7 +221,7 @@ Vec3 YamlValue::vector(const NumberRange& range) const {
   return {parts[0].numberFloat(range), parts[1].numberFloat(range), parts[2].numberFloat(range)};
 }
 
-std::size_t YamlValue::word(std::initializer_list<std::string_view> words) const {
+std::size_t YamlValue::word(std::span<const std::string_view> words) const {
   const auto found = std::find(words.begin(), words.end(), std::string_view(node_->scalar));
   if (isScalar() && found != words.end()) return static_cast<std::size_t>(found - words.begin());
   const std::vector<std::string> names(words.begin(), words.end());
@@ -253,7 +253,7 @@ std::vector<YamlValue> YamlValue::members(const char* what) const {
   return values;
 }
 
-void YamlValue::expectKeys(std::initializer_list<std::string_view> known) const {
+void YamlValue::expectKeys(std::span<const std::string_view> known) const {
   const std::vector<std::string> names(known.begin(), known.end());
   const std::string list = fmt::format("{}", fmt::join(names, ", "));
   if (!isMap()) fail(description(), fmt::format("give a map of the keys {}", list));

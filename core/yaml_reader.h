@@ -87,7 +87,10 @@ class YamlValue {
   std::string text(const char* what) const;     ///< not empty; `what` for the message: "a folder"
   Vec3 vector(const NumberRange& range) const;  ///< [x, y, z]
   /// Index of the word in `words`; an unknown one is an error that names the nearest.
-  std::size_t word(std::initializer_list<std::string_view> words) const;
+  std::size_t word(std::span<const std::string_view> words) const;
+  std::size_t word(std::initializer_list<std::string_view> words) const {
+    return word(std::span(words.begin(), words.size()));
+  }
 
   /// Entries of a list. @throws unless it is one; `what` for the message: "a list of people".
   std::vector<YamlValue> items(const char* what) const;
@@ -96,7 +99,10 @@ class YamlValue {
   std::string key() const { return key_; }
 
   /// Checks that this is a map with no other keys than `known`.
-  void expectKeys(std::initializer_list<std::string_view> known) const;
+  void expectKeys(std::span<const std::string_view> known) const;
+  void expectKeys(std::initializer_list<std::string_view> known) const {
+    expectKeys(std::span(known.begin(), known.size()));
+  }
   /// The value of a key, if it is there. @throws where the key has no value. @pre isMap()
   std::optional<YamlValue> find(std::string_view key) const;
 

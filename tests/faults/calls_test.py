@@ -3,9 +3,8 @@
 
 The program ends with one clear line and exit code 1 (or 0, where it can do without what failed), and
 leaves a wardrobe that is the old or the new one, and no file half written. Each call fails once
-alone, and once with all that come after it. Without --full, of many calls a fixed sample is taken:
-the first ones, then ever fewer, and the last. Of the millions of allocations of `people` --full
-takes a sample too.
+alone, and once with all that come after it. Allocations are many, so of them a fixed sample is taken:
+the first ones, then ever fewer, and the last; with --full up to 1,000, evenly over the whole run.
 """
 import errno
 import os
@@ -19,13 +18,15 @@ KINDS = {"open": errno.EACCES, "read": errno.EIO, "write": errno.ENOSPC, "fsync"
 
 
 EVERY = 1 << 40
+MOST_OF_FULL = 1000
 
 
-def sample(count, most):
+def sample(count, most, evenly):
+    """Numbers of calls, from 1 to count: all, or about `most` of them, the first and the last among them."""
     if count <= most:
         return range(1, count + 1)
-    picked = {count} | {max(1, round(count ** (i / (most - 1)))) for i in range(most)}
-    return sorted(picked)
+    shares = [i / (most - 1) for i in range(most)]
+    return sorted({max(1, round(share * count if evenly else count ** share)) for share in shares})
 
 
 class Calls:
@@ -48,7 +49,7 @@ class Calls:
         result, count = self.run(arguments, kind, 0)
         if result.returncode != 0 or count < 0:
             sys.exit(f"{name} without a fault: {result.returncode} {result.stderr}")
-        numbers = sample(count, most)
+        numbers = sample(count, most, self.full)
         outcomes = {}
         for at in numbers:
             for lasts in (False, True):
@@ -73,7 +74,8 @@ def wardrobe_commands(calls):
             held = kit.expect_whole(kit.folder / "w", (old, new), what)
             kit.expect(code != 0 or held == new, f"{what}: exit code 0, but the wardrobe is the old one")
         for kind in ("alloc", *KINDS):
-            calls.each(name, arguments, kind, 24 if kind == "alloc" and not calls.full else EVERY, kit.renew, judge)
+            most = EVERY if kind != "alloc" else MOST_OF_FULL if calls.full else 24
+            calls.each(name, arguments, kind, most, kit.renew, judge)
 
 
 def contents(folder):

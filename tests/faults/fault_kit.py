@@ -20,7 +20,7 @@ def options():
     parser = argparse.ArgumentParser()
     parser.add_argument("--ensemble", required=True)
     parser.add_argument("--shim", required=True)
-    parser.add_argument("--full", action="store_true", help="every call and 200 kills, not a sample")
+    parser.add_argument("--full", action="store_true", help="200 kills, and many more calls that fail")
     parsed = parser.parse_args()
     parsed.ensemble, parsed.shim = os.path.abspath(parsed.ensemble), os.path.abspath(parsed.shim)
     return parsed
