@@ -122,6 +122,7 @@ AuthorBody::AuthorBody(const TemplateBody& body) : body_(body) {
   std::vector<Vec3> positions;
   for (const RawVertex& vertex : body.vertices) positions.push_back(vertex.position);
   surface_ = std::make_unique<BodySurface>(positions, body.faces.raw());
+  poses_ = poseInClips(body, *surface_);
   low_ = high_ = surface_->positions().front();
   for (const Vec3& p : surface_->positions()) {
     low_ = glm::min(low_, p);

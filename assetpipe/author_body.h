@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "assetpipe/body_motion.h"
 #include "assetpipe/body_surface.h"
 #include "assetpipe/implicit_field.h"
 #include "core/wardrobe.h"
@@ -61,6 +62,7 @@ class AuthorBody {
 
   const TemplateBody& body() const { return body_; }
   const BodySurface& surface() const { return *surface_; }
+  const std::vector<PosedBody>& poses() const { return poses_; }      ///< in the template's clips
   BodyZone zoneOf(std::uint32_t face) const { return zones_[face]; }  ///< of surface().faces()
   /// A body 1.75 m tall is 1. Recipes' millimetres are those of such a body.
   float scale() const { return scale_; }
@@ -80,6 +82,7 @@ class AuthorBody {
  private:
   const TemplateBody& body_;
   std::unique_ptr<BodySurface> surface_;
+  std::vector<PosedBody> poses_;
   std::vector<BodyZone> zones_;
   std::array<std::unique_ptr<BodySurface>, kBodyZoneCount> zone_surfaces_;
   std::array<std::unique_ptr<SmoothGrid>, kBodyZoneCount> zone_grids_;

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "assetpipe/cloth_mesh.h"
 #include "assetpipe/cloth_pattern.h"
-#include "assetpipe/people_outfits.h"
 #include "core/atomic_file.h"
+#include "core/color.h"
 #include "core/image_file.h"
 #include "core/input_error.h"
 #include "core/nearest_name.h"
@@ -82,6 +83,21 @@ RawImage readTexture(const GarmentRecipe& garment) {
   return image;
 }
 
+/// The plain material that an earlier garment of the outfit is made of, or none. What is of one cloth shares
+/// it, so that jacket and trousers of a suit are tinted alike.
+std::optional<std::uint32_t> sameCloth(const std::vector<RawMaterial>& materials,
+                                       const std::vector<std::uint32_t>& mains, const RawMaterial& wanted) {
+  const auto kind = [](const RawMaterial& material) {
+    return material.name.substr(0, material.name.find('.'));
+  };
+  for (const std::uint32_t main : mains) {
+    const RawMaterial& known = materials[main];
+    if (!known.image && !wanted.image && known.base_color == wanted.base_color && kind(known) == kind(wanted))
+      return main;
+  }
+  return std::nullopt;
+}
+
 /// Materials by label: the cloth's, then the trims'.
 std::vector<RawMaterial> makeMaterials(const GarmentRecipe& garment, std::vector<RawImage>& images) {
   const std::string name = garment.material + "." + garment.name;
@@ -92,8 +108,10 @@ std::vector<RawMaterial> makeMaterials(const GarmentRecipe& garment, std::vector
     images.push_back(garment.texture.empty() ? patternImage(garment.name, garment.color, garment.pattern)
                                              : readTexture(garment));
   }
-  for (const TrimRecipe& trim : garment.trims)
-    materials.push_back(makeMaterial(name + "." + trim.name, trim.color));
+  for (const TrimRecipe& trim : garment.trims) {
+    const std::string& kind = trim.material.empty() ? garment.material : trim.material;
+    materials.push_back(makeMaterial(kind + "." + garment.name + "." + trim.name, trim.color));
+  }
   return materials;
 }
 
@@ -118,6 +136,16 @@ GarmentFigures figuresOf(const GarmentRecipe& garment, const FieldMesh& mesh, co
   return figures;
 }
 
+/// Of the last garment, where it and the body cross.
+void warnAbout(const Recipe& recipe, AuthoredOutfit& outfit) {
+  const GarmentFigures& garment = outfit.garments.back();
+  const std::size_t left = garment.pokes.cloth_in_body + garment.pokes.body_in_front;
+  if (left == 0) return;
+  outfit.warnings.push_back(
+      fmt::format("{}: garment '{}' and the body still cross at {} vertices; give it more ease",
+                  recipe.file.string(), garment.name, left));
+}
+
 }  // namespace
 
 AuthoredOutfit authorOutfit(const Recipe& recipe, const RawAsset& asset, const AuthorBody& body) {
@@ -134,8 +162,10 @@ AuthoredOutfit authorOutfit(const Recipe& recipe, const RawAsset& asset, const A
       nlohmann::ordered_json({{"ensemble", {{"slot", toString(recipe.slot)}, {"layer", recipe.layer}}}})
           .dump();
   const TailorFrame frame(body, marks);
+  std::vector<ClothBelow> below;
+  std::vector<std::uint32_t> mains;  // the cloth's own materials so far
   for (const GarmentRecipe& garment : recipe.garments) {
-    const FieldMesh mesh = meshCloth(frame, garment, designCloth(frame, garment));
+    FieldMesh mesh = meshCloth(frame, garment, designCloth(frame, garment), below);
     if (mesh.faces.empty()) {
       failAt(recipe, garment.mark, "garment '" + garment.name + "' has no cloth left on this template",
              "look at its openings: hem, top, neck, cuts");
@@ -144,11 +174,19 @@ AuthoredOutfit authorOutfit(const Recipe& recipe, const RawAsset& asset, const A
     node.name = "garment." + garment.name;
     node.primitives = sewCloth(frame, garment, mesh);
     const auto first = static_cast<std::uint32_t>(outfit.asset.materials.size());
-    for (RawPrimitive& primitive : node.primitives) primitive.material += first;
-    for (RawMaterial& material : makeMaterials(garment, outfit.asset.images)) {
-      outfit.asset.materials.push_back(std::move(material));
+    std::vector<RawMaterial> materials = makeMaterials(garment, outfit.asset.images);
+    const auto same = sameCloth(outfit.asset.materials, mains, materials[0]);
+    if (same) materials.erase(materials.begin());
+    for (RawPrimitive& primitive : node.primitives) {
+      const std::uint32_t label = primitive.material;
+      primitive.material = same ? (label == 0 ? *same : first + label - 1) : first + label;
     }
+    if (!same) mains.push_back(first);
+    outfit.asset.materials.insert(outfit.asset.materials.end(), materials.begin(), materials.end());
     outfit.garments.push_back(figuresOf(garment, mesh, node, body.surface()));
+    warnAbout(recipe, outfit);
+    std::vector<SkinBinding> skins = weighCloth(frame, garment, mesh);
+    below.push_back({std::move(mesh), std::move(skins)});
     outfit.asset.meshes.push_back(std::move(node));
   }
   return outfit;

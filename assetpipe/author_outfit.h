@@ -25,6 +25,7 @@ inline constexpr float kPokeTolerance = 0.0005f;  ///< metres
 struct AuthoredOutfit {
   RawAsset asset;  ///< the template without its clips, and a node `garment.NAME` for each garment
   std::vector<GarmentFigures> garments;
+  std::vector<std::string> warnings;  ///< of garments that still cross the body
 };
 
 /// Dresses a template. The template's meshes are kept as they are, so that the outfit matches it; slot and

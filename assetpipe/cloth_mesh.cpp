@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <utility>
 
+#include "assetpipe/fit_in_motion.h"
 #include "assetpipe/simplify_surface.h"
 #include "core/check.h"
+#include "core/clip.h"
 
 namespace ensemble {
 namespace {
 
 constexpr float kClearance = 0.0015f;  // metres off the body, of the finished cloth
 constexpr float kLeastPiece = 0.02f;   // pieces with fewer faces than this share of the largest are crumbs
-constexpr float kCutRoom = 0.02f;      // metres that cloth is meshed beyond its openings
+constexpr int kMotionRounds = 3;
+constexpr float kCutRoom = 0.02f;  // metres that cloth is meshed beyond its openings
 
 Vec3 middleOf(const FieldMesh& mesh, const Triangle& face) {
   return (mesh.positions[face[0]] + mesh.positions[face[1]] + mesh.positions[face[2]]) / 3.0f;
@@ -55,9 +59,47 @@ void labelTrims(FieldMesh& mesh, const ClothDesign& design) {
   }
 }
 
+/// Poses of a garment as of a body.
+std::vector<PosedBody> poseCloth(const ClothBelow& cloth, const BodySurface& surface,
+                                 const std::vector<PosedBody>& poses) {
+  std::vector<PosedBody> result;
+  for (const PosedBody& pose : poses) {
+    PosedBody posed;
+    for (const std::uint32_t source : surface.source()) {
+      RawVertex vertex;
+      vertex.position = cloth.mesh.positions[source];
+      vertex.skin = cloth.skins[source];
+      posed.positions.push_back(skinPosition(vertex, pose.skinning_matrices));
+    }
+    posed.skinning_matrices = pose.skinning_matrices;
+    result.push_back(std::move(posed));
+  }
+  return result;
+}
+
+/// Lifts cloth off body and garments below, at rest and in motion.
+void fitToWear(const TailorFrame& frame, const GarmentRecipe& recipe, std::span<const ClothBelow> below,
+               FieldMesh& mesh) {
+  const std::vector<PosedBody>& poses = frame.body().poses();
+  std::vector<std::unique_ptr<BodySurface>> surfaces;
+  std::vector<std::vector<PosedBody>> posed;
+  for (const ClothBelow& cloth : below) {
+    surfaces.push_back(std::make_unique<BodySurface>(cloth.mesh.positions, cloth.mesh.faces));
+    posed.push_back(poseCloth(cloth, *surfaces.back(), poses));
+    fitOverCloth(mesh, *surfaces.back(), kClearance);
+  }
+  for (int round = 0; round < kMotionRounds; ++round) {
+    bool moved = liftInMotion(mesh, weighCloth(frame, recipe, mesh), frame.body().surface(), poses);
+    for (std::size_t i = 0; i < below.size(); ++i)
+      moved = liftInMotion(mesh, weighCloth(frame, recipe, mesh), *surfaces[i], posed[i]) || moved;
+    if (!moved) break;
+  }
+}
+
 }  // namespace
 
-FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothDesign& design) {
+FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothDesign& design,
+                    std::span<const ClothBelow> below) {
   FieldMesherOptions mesher;
   mesher.low = design.low;
   mesher.high = design.high;
@@ -79,6 +121,7 @@ FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const
   simplify.target_faces = recipe.triangles;
   mesh = simplifySurface(mesh, design.shell, simplify);
   fitOverBody(mesh, frame.body().surface(), kClearance);
+  if (recipe.kind != GarmentKind::kHead) fitToWear(frame, recipe, below, mesh);
   return mesh;
 }
 

@@ -1,6 +1,7 @@
 // A garment's fields made into a mesh that moves with the body.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,17 @@
 
 namespace ensemble {
 
-/// The outside of the cloth, cut at its openings, over the body; labels are 0 for the cloth itself, then its
+/// A garment that another one is worn over.
+struct ClothBelow {
+  FieldMesh mesh;
+  std::vector<SkinBinding> skins;  ///< #V
+};
+
+/// The outside of the cloth, cut at its openings, over the body and the garments below, at rest and in the
+/// template's clips; labels are 0 for the cloth itself, then its
 /// trims in order. Empty where the recipe leaves no cloth on this body.
-FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothDesign& design);
+FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothDesign& design,
+                    std::span<const ClothBelow> below);
 
 /// Edges turned in, normals, texture coordinates and weights: one primitive for each label that has faces,
 /// `material` the label.

@@ -1,4 +1,6 @@
-// Weights of cloth: from the skin below, from both legs under a skirt, or from one joint.
+// Weights of cloth: from the skin below, from both legs under a skirt, or from one joint. Where cloth that
+// moves otherwise than the skin would sink into it in one of the template's clips, it follows the skin more
+// closely.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,8 @@ namespace {
 
 constexpr int kSmoothRounds = 4;
 constexpr float kLeastWeight = 0.02f;
+constexpr float kKeepOff = 0.005f;  // metres off the skin in motion, for cloth that is so far off at rest
+constexpr std::size_t kFollowSteps = 4;  // from its own weights to the skin's
 
 class ClothWeigher {
  public:
@@ -24,10 +28,12 @@ class ClothWeigher {
     const std::string joint = recipe_.attach ? recipe_.attach->value : "";
     if (!joint.empty() || recipe_.kind == GarmentKind::kHead) return ofOneJoint(joint);
     takeFromSkin();
+    skin_rows_ = rows_;
     for (int round = 0; round < kSmoothRounds; ++round) smooth();
     if (recipe_.hang > 0.0f) {
       for (std::size_t v = 0; v < mesh_.positions.size(); ++v) hang(mesh_.positions[v], rows_[v]);
     }
+    followSkin();
     std::vector<SkinBinding> result;
     for (const std::vector<float>& row : rows_) result.push_back(strongest(row));
     return result;
@@ -56,6 +62,7 @@ class ClothWeigher {
         }
       }
       rows_.push_back(std::move(row));
+      below_.push_back(at);
       // Tight cloth moves just as the skin does.
       looseness_.push_back(0.5f * smoothStep(0.003f, 0.014f, at.distance));
     }
@@ -80,6 +87,52 @@ class ClothWeigher {
       for (std::size_t j = 0; j < joint_count_; ++j)
         rows_[v][j] = glm::mix(rows_[v][j], sums[v][j] / counts[v], looseness_[v]);
     }
+  }
+
+  std::vector<float> mixed(std::size_t v, float share) const {
+    std::vector<float> row(joint_count_);
+    for (std::size_t j = 0; j < joint_count_; ++j) row[j] = glm::mix(rows_[v][j], skin_rows_[v][j], share);
+    return row;
+  }
+
+  /// Whether a vertex that moves by these weights stays off the skin below it in all poses.
+  bool staysOff(std::size_t v, const std::vector<float>& row) const {
+    const BodySurface& surface = frame_.body().surface();
+    const Vec3& p = mesh_.positions[v];
+    const NearestPoint& below = below_[v];
+    const Triangle& face = surface.faces()[below.face];
+    const Vec3 normal = glm::cross(surface.positions()[face[1]] - surface.positions()[face[0]],
+                                   surface.positions()[face[2]] - surface.positions()[face[0]]);
+    const float height = glm::dot(p - below.point, glm::normalize(normal));
+    const float least = std::min(0.8f * height, kKeepOff * frame_.scale());
+    for (const PosedBody& posed : frame_.body().poses()) {
+      Vec3 moved(0.0f);
+      for (std::size_t j = 0; j < joint_count_; ++j) {
+        if (row[j] > 0.0f) moved += row[j] * Vec3(posed.skinning_matrices[j] * Vec4(p, 1.0f));
+      }
+      if (heightOver(posed, surface, below, moved) < least) return false;
+    }
+    return true;
+  }
+
+  void followSkin() {
+    if (frame_.body().poses().empty()) return;
+    std::vector<float> shares(rows_.size(), 0.0f);
+    for (std::size_t v = 0; v < rows_.size(); ++v) {
+      for (std::size_t step = 0; step <= kFollowSteps; ++step) {
+        shares[v] = static_cast<float>(step) / static_cast<float>(kFollowSteps);
+        if (staysOff(v, mixed(v, shares[v]))) break;
+      }
+    }
+    // Neighbours come along half-way, so that cloth does not tear.
+    std::vector<float> spread = shares;
+    for (const Triangle& face : mesh_.faces) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (const std::uint32_t other : {face[(k + 1) % 3], face[(k + 2) % 3]})
+          spread[face[k]] = std::max(spread[face[k]], 0.5f * shares[other]);
+      }
+    }
+    for (std::size_t v = 0; v < rows_.size(); ++v) rows_[v] = mixed(v, spread[v]);
   }
 
   /// A skirt swings with both legs, less than they do, and below the knees with the shins.
@@ -128,7 +181,8 @@ class ClothWeigher {
   const GarmentRecipe& recipe_;
   const FieldMesh& mesh_;
   std::size_t joint_count_;
-  std::vector<std::vector<float>> rows_;
+  std::vector<std::vector<float>> rows_, skin_rows_;
+  std::vector<NearestPoint> below_;
   std::vector<float> looseness_;  // how much of its neighbours' weights a vertex takes in a round
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 namespace ensemble {
 namespace {
@@ -13,26 +12,11 @@ constexpr float kCoverDepth =
 constexpr float kMostStep = 0.006f;  // metres a vertex moves in a round
 constexpr float kFacesAlike = 0.2f;  // cosine between skin and the cloth over it
 
-/// How far a point of the body stands in front of the cloth that covers it (negative: behind), and the
-/// face; nothing where none covers it.
-struct Cover {
-  float ahead = 0.0f;
-  NearestPoint at;
-  Vec3 normal{0.0f};
-};
-std::optional<Cover> coverOf(const BodySurface& cloth, const Vec3& point, const Vec3& normal) {
-  const NearestPoint at = cloth.nearest(point);
-  if (at.distance > kCoverDepth || cloth.isOnBorder(at)) return std::nullopt;
-  const Vec3 cloth_normal = glm::normalize(cloth.sideNormal(at));
-  if (glm::dot(cloth_normal, normal) < kFacesAlike) return std::nullopt;
-  return Cover{glm::dot(point - at.point, cloth_normal) < 0.0f ? -at.distance : at.distance, at,
-               cloth_normal};
-}
-
 class Fitter {
  public:
-  Fitter(FieldMesh& cloth, const BodySurface& body, float clearance)
-      : cloth_(cloth), body_(body), clearance_(clearance) {
+  /// @param is_closed whether the body has an inside
+  Fitter(FieldMesh& cloth, const BodySurface& body, float clearance, bool is_closed)
+      : cloth_(cloth), body_(body), clearance_(clearance), is_closed_(is_closed) {
     low_ = Vec3(std::numeric_limits<float>::max());
     high_ = -low_;
     for (const Vec3& p : cloth.positions) {
@@ -44,17 +28,7 @@ class Fitter {
   /// Whether anything had to move.
   bool round() {
     pushes_.assign(cloth_.positions.size(), Vec3(0.0f));
-    for (std::uint32_t v = 0; v < cloth_.positions.size(); ++v)
-      pushOut(cloth_.positions[v], clearance_, {v, v, v});
-    for (const Triangle& face : cloth_.faces) {
-      const Vec3 &a = cloth_.positions[face[0]], &b = cloth_.positions[face[1]],
-                 &c = cloth_.positions[face[2]];
-      const float less = 0.5f * clearance_;
-      pushOut((a + b + c) / 3.0f, less, face);
-      pushOut(0.5f * (a + b), less, {face[0], face[1], face[0]});
-      pushOut(0.5f * (b + c), less, {face[1], face[2], face[1]});
-      pushOut(0.5f * (c + a), less, {face[2], face[0], face[2]});
-    }
+    if (is_closed_) pushOutOfBody();
     pushOverBody();
     bool moved = false;
     for (std::size_t v = 0; v < pushes_.size(); ++v) {
@@ -67,6 +41,20 @@ class Fitter {
   }
 
  private:
+  void pushOutOfBody() {
+    for (std::uint32_t v = 0; v < cloth_.positions.size(); ++v)
+      pushOut(cloth_.positions[v], clearance_, {v, v, v});
+    for (const Triangle& face : cloth_.faces) {
+      const Vec3 &a = cloth_.positions[face[0]], &b = cloth_.positions[face[1]],
+                 &c = cloth_.positions[face[2]];
+      const float less = 0.5f * clearance_;
+      pushOut((a + b + c) / 3.0f, less, face);
+      pushOut(0.5f * (a + b), less, {face[0], face[1], face[0]});
+      pushOut(0.5f * (b + c), less, {face[1], face[2], face[1]});
+      pushOut(0.5f * (c + a), less, {face[2], face[0], face[2]});
+    }
+  }
+
   void push(std::uint32_t v, const Vec3& by) {
     if (glm::dot(by, by) > glm::dot(pushes_[v], pushes_[v])) pushes_[v] = by;
   }
@@ -107,14 +95,30 @@ class Fitter {
   FieldMesh& cloth_;
   const BodySurface& body_;
   float clearance_;
+  bool is_closed_;
   Vec3 low_{0.0f}, high_{0.0f};
   std::vector<Vec3> pushes_;
 };
 
 }  // namespace
 
+std::optional<Cover> coverOf(const BodySurface& cloth, const Vec3& point, const Vec3& normal) {
+  const NearestPoint at = cloth.nearest(point);
+  if (at.distance > kCoverDepth || cloth.isOnBorder(at)) return std::nullopt;
+  const Vec3 cloth_normal = glm::normalize(cloth.sideNormal(at));
+  if (glm::dot(cloth_normal, normal) < kFacesAlike) return std::nullopt;
+  return Cover{glm::dot(point - at.point, cloth_normal) < 0.0f ? -at.distance : at.distance, at,
+               cloth_normal};
+}
+
 void fitOverBody(FieldMesh& cloth, const BodySurface& body, float clearance) {
-  Fitter fitter(cloth, body, clearance);
+  Fitter fitter(cloth, body, clearance, true);
+  for (int round = 0; round < kRounds && fitter.round(); ++round) {
+  }
+}
+
+void fitOverCloth(FieldMesh& cloth, const BodySurface& under, float clearance) {
+  Fitter fitter(cloth, under, clearance, false);
   for (int round = 0; round < kRounds && fitter.round(); ++round) {
   }
 }

@@ -157,12 +157,12 @@ class Search {
     for (std::size_t first = 0; first < found_.poses.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, found_.poses.size() - first);
       std::vector<std::optional<Lookout>> lookouts(count);
-      forEachOnThreads(threads, count, [&](std::size_t i) {
+      forEachOnThreads(threads, count, [&](std::size_t i, unsigned) {
         const std::vector<Mat4> matrices = matricesAt(body_, found_.poses[first + i]);
         lookouts[i].emplace(device_, body_, items_, matrices, options_,
                             static_cast<std::uint32_t>(first + i));
       });
-      forEachOnThreads(threads, found_.faces.size(), [&](std::size_t face) {
+      forEachOnThreads(threads, found_.faces.size(), [&](std::size_t face, unsigned) {
         for (std::size_t i = 0; i < count; ++i)
           look(*lookouts[i], first + i, static_cast<std::uint32_t>(face));
       });

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "assetpipe/built_in_recipes.h"
 #include "assetpipe/people_body.h"
 #include "assetpipe/people_clips.h"
-#include "assetpipe/people_garments.h"
-#include "assetpipe/people_skin.h"
+#include "assetpipe/segment.h"
 #include "assetpipe/surface_check.h"
 #include "core/atomic_file.h"
 #include "core/check.h"
@@ -30,9 +30,8 @@ RawVertex vertexOf(const Figure& figure, RawVertex vertex, std::uint32_t region,
   return vertex;
 }
 
-/// The body as one primitive a region, in the order of the regions; hidden faces left out.
-RawMeshNode bodyNode(const Figure& figure, const FieldMesh& mesh, const std::vector<RawVertex>& vertices,
-                     const std::vector<std::uint8_t>& hidden) {
+/// The body as one primitive a region, in the order of the regions.
+RawMeshNode bodyNode(const Figure& figure, const FieldMesh& mesh, const std::vector<RawVertex>& vertices) {
   RawMeshNode node;
   node.name = "body";
   for (std::uint32_t region = 0; region < kBodyRegionCount; ++region) {
@@ -41,7 +40,7 @@ RawMeshNode bodyNode(const Figure& figure, const FieldMesh& mesh, const std::vec
     // By vertex: its number where the head's two halves agree about it, and on the right side of the seam.
     std::vector<std::uint32_t> renumbered(2 * vertices.size(), ~0u);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-      if (mesh.labels[f] != region || hidden[f] != 0) continue;
+      if (mesh.labels[f] != region) continue;
       Triangle face = mesh.faces[f];
       float side = 0.0f;
       for (const std::uint32_t v : face) side += vertices[v].position.x;
@@ -77,98 +76,36 @@ std::vector<RawMaterial> skinMaterials(const Vec3& skin) {
   return materials;
 }
 
-/// Makes the parts of one person that its files share.
-class PersonMaker {
+/// Hair grows in the person's colour, whatever the recipe says.
+void colorHair(const Vec3& color, RawAsset& outfit) {
+  for (RawMaterial& material : outfit.materials) {
+    if (material.name.starts_with("hair.") && !material.image) material.base_color = Vec4(color, 1.0f);
+  }
+}
+
+/// Dresses a template by several recipes at a time.
+class Dresser {
  public:
-  explicit PersonMaker(const PersonConfig& config)
-      : config_(config),
-        figure_(makeFigure(config.figure)),
-        skeleton_(makeSkeleton(figure_)),
-        mesh_(makeBodyMesh(figure_, config.body_faces)),
-        head_(paintHead(figure_, config.colors)) {
-    requireSoundBody(config.name, mesh_);
-    const Field body = [this](const Vec3& p) { return figure_.body(p); };
-    for (const Vec3& p : mesh_.positions) {
-      vertices_.push_back(makeVertex(figure_, body, p, bodyBinding(figure_, p)));
-    }
-    nothing_hidden_.assign(mesh_.faces.size(), 0);
-  }
-  PersonMaker(const PersonMaker&) = delete;
-  PersonMaker& operator=(const PersonMaker&) = delete;
+  /// @param body the template; read back from its file's bytes, so that outfits are those of `ensemble
+  /// author`
+  Dresser(const RawAsset& body, const std::string& name)
+      : asset_(readGlb(writeGlb(body), name)), segmented_(segmentTemplate(asset_, {}, name, warnings_)) {}
 
-  RawAsset makeTemplate() const {
-    RawAsset body = asset(bodyNode(figure_, mesh_, vertices_, nothing_hidden_), {});
-    for (const Clip& clip : makeClips(figure_, skeleton_)) body.clips.push_back(toRawClip(skeleton_, clip));
-    return body;
-  }
-
-  MadePerson run(unsigned jobs) {
-    MadePerson person;
-    person.name = config_.name;
-    person.body = makeTemplate();
-    person.walk_speed = walkSpeed(figure_);
-    person.run_speed = runSpeed(figure_);
-    std::vector<OutfitPlan> plans = outfitPlans(config_.figure.sex);
-    std::erase_if(plans, [this](const OutfitPlan& plan) {
-      return !config_.outfits.empty() &&
-             std::find(config_.outfits.begin(), config_.outfits.end(), plan.name) == config_.outfits.end();
+  std::vector<MadeOutfit> run(const std::vector<Recipe>& recipes, unsigned jobs) const {
+    std::vector<MadeOutfit> outfits(recipes.size());
+    const unsigned threads = threadCount(jobs);
+    std::vector<std::optional<AuthorBody>> measured(threads);  // one body is for one thread alone
+    forEachOnThreads(threads, recipes.size(), [&](std::size_t i, unsigned thread) {
+      if (!measured[thread]) measured[thread].emplace(segmented_);
+      outfits[i] = {recipes[i], authorOutfit(recipes[i], asset_, *measured[thread])};
     });
-    makeGarments(plans, jobs);
-    for (const OutfitPlan& plan : plans) person.outfits.push_back(dress(plan));
-    return person;
+    return outfits;
   }
 
  private:
-  /// Makes each garment of the plans once, several at a time.
-  void makeGarments(const std::vector<OutfitPlan>& plans, unsigned jobs) {
-    for (const OutfitPlan& plan : plans) {
-      for (const std::string& name : plan.garments) garments_.try_emplace(name);
-    }
-    std::vector<std::pair<const std::string, MadeGarment>*> entries;
-    for (auto& entry : garments_) entries.push_back(&entry);
-    forEachOnThreads(threadCount(jobs), entries.size(), [&](std::size_t i) {
-      entries[i]->second =
-          makeGarment(figure_, designGarment(figure_, config_.colors, config_.seed, entries[i]->first));
-    });
-  }
-
-  MadeOutfit dress(const OutfitPlan& plan) const {
-    std::vector<const MadeGarment*> garments;
-    for (const std::string& name : plan.garments) garments.push_back(&garments_.at(name));
-    const std::vector<std::uint8_t> hidden = findCoveredFaces(mesh_, garments);
-    MadeOutfit outfit;
-    outfit.name = plan.name;
-    outfit.fitted = asset(bodyNode(figure_, mesh_, vertices_, hidden), garments);
-    outfit.unfitted = asset(bodyNode(figure_, mesh_, vertices_, nothing_hidden_), garments);
-    return outfit;
-  }
-
-  RawAsset asset(RawMeshNode body, const std::vector<const MadeGarment*>& garments) const {
-    RawAsset asset;
-    asset.copyright = "Made by ensemble people";
-    asset.skeleton = skeleton_;
-    asset.materials = skinMaterials(config_.colors.skin);
-    asset.images = {head_};
-    asset.meshes.push_back(std::move(body));
-    for (const MadeGarment* garment : garments) {
-      RawMeshNode node = garment->node;
-      for (RawPrimitive& primitive : node.primitives) {
-        primitive.material += static_cast<std::uint32_t>(asset.materials.size());
-      }
-      asset.materials.insert(asset.materials.end(), garment->materials.begin(), garment->materials.end());
-      asset.meshes.push_back(std::move(node));
-    }
-    return asset;
-  }
-
-  const PersonConfig& config_;
-  const Figure figure_;
-  const RawSkeleton skeleton_;
-  const FieldMesh mesh_;
-  const RawImage head_;
-  std::vector<RawVertex> vertices_;
-  std::vector<std::uint8_t> nothing_hidden_;
-  std::map<std::string, MadeGarment> garments_;
+  std::vector<std::string> warnings_;
+  const RawAsset asset_;
+  const TemplateBody segmented_;
 };
 
 }  // namespace
@@ -184,28 +121,55 @@ void requireSoundBody(const std::string& person, const FieldMesh& mesh) {
                     "give it more faces, or less extreme measures"});
 }
 
-MadePerson makePerson(const PersonConfig& config, unsigned jobs) { return PersonMaker(config).run(jobs); }
-RawAsset makeTemplatePerson(const PersonConfig& config) { return PersonMaker(config).makeTemplate(); }
+RawAsset makeTemplatePerson(const PersonConfig& config) {
+  const Figure figure = makeFigure(config.figure);
+  const FieldMesh mesh = makeBodyMesh(figure, config.body_faces);
+  requireSoundBody(config.name, mesh);
+  const Field body = [&figure](const Vec3& p) { return figure.body(p); };
+  std::vector<RawVertex> vertices;
+  for (const Vec3& p : mesh.positions)
+    vertices.push_back(makeVertex(figure, body, p, bodyBinding(figure, p)));
+  RawAsset asset;
+  asset.copyright = "Made by ensemble people";
+  asset.skeleton = makeSkeleton(figure);
+  asset.materials = skinMaterials(config.colors.skin);
+  asset.images = {paintHead(figure, config.colors)};
+  asset.meshes.push_back(bodyNode(figure, mesh, vertices));
+  for (const Clip& clip : makeClips(figure, asset.skeleton))
+    asset.clips.push_back(toRawClip(asset.skeleton, clip));
+  return asset;
+}
+
+MadePerson makePerson(const PersonConfig& config, unsigned jobs) {
+  MadePerson person;
+  person.name = config.name;
+  person.body = makeTemplatePerson(config);
+  const Figure figure = makeFigure(config.figure);
+  person.walk_speed = walkSpeed(figure);
+  person.run_speed = runSpeed(figure);
+  std::vector<Recipe> recipes;
+  for (const std::string& name : config.outfits.empty() ? builtInRecipeNames() : config.outfits)
+    recipes.push_back(builtInRecipe(name));
+  person.outfits = Dresser(person.body, config.name).run(recipes, jobs);
+  for (MadeOutfit& made : person.outfits) colorHair(config.colors.hair, made.outfit.asset);
+  return person;
+}
 
 std::vector<std::filesystem::path> writePerson(const MadePerson& person,
                                                const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   const std::filesystem::path own = folder / person.name;
-  for (const char* part : {"outfits", "unfitted"}) {
-    std::error_code error;
-    std::filesystem::create_directories(own / part, error);
-    if (error)
-      throw SystemError({(own / part).string(), "", "the folder can't be made: " + error.message(), ""});
-  }
+  std::error_code error;
+  std::filesystem::create_directories(own / "outfits", error);
+  if (error)
+    throw SystemError({(own / "outfits").string(), "", "the folder can't be made: " + error.message(), ""});
   const auto write = [&](const std::filesystem::path& file, const RawAsset& asset) {
     writeFileAtomically(file, writeGlb(asset));
     files.push_back(file);
   };
   write(own / "template.glb", person.body);
-  for (const MadeOutfit& outfit : person.outfits) {
-    write(own / "outfits" / (outfit.name + ".glb"), outfit.fitted);
-    write(own / "unfitted" / (outfit.name + ".glb"), outfit.unfitted);
-  }
+  for (const MadeOutfit& made : person.outfits)
+    write(own / "outfits" / (made.recipe.name + ".glb"), made.outfit.asset);
   return files;
 }
 

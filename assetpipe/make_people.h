@@ -1,8 +1,8 @@
-// `ensemble people`: template people and outfits made from a few parameters, by our own code.
+// `ensemble people`: template people made from a few parameters, by our own code, and dressed by our recipes.
 //
-// The files follow one convention: node `body` with the six regions as materials (head, hands, feet,
-// arms, torso, legs), nodes `garment.NAME`, one skin, metres, +Y up, facing +Z, bare soles at y = 0,
-// right side at -X.
+// A template has a node `body` with the six regions as materials (head, hands, feet, arms, torso, legs), one
+// skin, metres, +Y up, facing +Z, bare soles at y = 0, right side at -X. Outfits are as authorOutfit makes
+// them.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "assetpipe/author_outfit.h"
 #include "assetpipe/field_mesher.h"
 #include "assetpipe/people_figure.h"
-#include "assetpipe/people_outfits.h"
+#include "assetpipe/people_skin.h"
 #include "core/raw_asset.h"
 
 namespace ensemble {
@@ -21,9 +22,9 @@ namespace ensemble {
 struct PersonConfig {
   std::string name;  ///< its folder's name
   FigureOptions figure;
-  std::uint64_t seed = 0;  ///< of the garments' colours
+  std::uint64_t seed = 0;  ///< of the colours of skin and hair
   PersonColors colors;
-  std::vector<std::string> outfits;  ///< names of outfitPlans(figure.sex); empty: all
+  std::vector<std::string> outfits;  ///< builtInRecipeNames(), in the order they are made; empty: all
   std::uint32_t body_faces = 3400;   ///< about so many triangles, 1500 .. 20000
 };
 
@@ -31,10 +32,10 @@ struct PeopleConfig {
   std::vector<PersonConfig> people;  ///< at least one, names distinct
 };
 
-/// An outfit: garments with the part of the body that shows, and with the complete body.
+/// What a recipe made of a person's template.
 struct MadeOutfit {
-  std::string name;
-  RawAsset fitted, unfitted;
+  Recipe recipe;
+  AuthoredOutfit outfit;
 };
 
 struct MadePerson {
@@ -48,10 +49,10 @@ struct MadePerson {
 PeopleConfig loadPeopleConfig(const std::filesystem::path& file);
 PeopleConfig parsePeopleConfig(const std::string& text, const std::filesystem::path& file);
 
-/// Makes a person in memory; takes a few seconds of `jobs` threads (0: one a core). The same
-/// configuration gives the same bytes. @throws InputError for a body that cuts itself. A garment that several
-/// outfits share is the same in each, vertex by vertex. @pre the configuration is as loadPeopleConfig returns
-/// it.
+/// Makes a person in memory; takes a second or two, and about one for each outfit, of `jobs` threads (0: one
+/// a core). The same configuration gives the same bytes. Outfits are those that `ensemble author` makes for
+/// the template; hair has the person's colour. @throws InputError for a body that cuts itself.
+/// @pre the configuration is as loadPeopleConfig returns it.
 MadePerson makePerson(const PersonConfig& config, unsigned jobs = 0);
 
 /// Refuses a body whose faces cut each other (makeBodyMesh tells when that happens).
@@ -61,8 +62,8 @@ void requireSoundBody(const std::string& person, const FieldMesh& mesh);
 /// Only the template, as MadePerson::body has it.
 RawAsset makeTemplatePerson(const PersonConfig& config);
 
-/// Writes DIR/NAME/template.glb, DIR/NAME/outfits/OUTFIT.glb and DIR/NAME/unfitted/OUTFIT.glb, each
-/// file whole or not at all; returns their paths. @throws SystemError
+/// Writes DIR/NAME/template.glb and DIR/NAME/outfits/OUTFIT.glb, each file whole or not at all; returns their
+/// paths. @throws SystemError
 std::vector<std::filesystem::path> writePerson(const MadePerson& person, const std::filesystem::path& folder);
 
 }  // namespace ensemble

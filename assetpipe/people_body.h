@@ -34,13 +34,8 @@ BodyRegion bodyRegion(const Figure& figure, const Vec3& p);
 /// unless `face_count` is too small for that: check with checkSurface.
 FieldMesh makeBodyMesh(const Figure& figure, std::size_t face_count);
 
-/// Which joints move a point on or near the body; a smooth function of the position, so that clothes
-/// move with the skin below them. Weights descend and sum to 1.
+/// Which joints move a point of the body; a smooth function of the position. Weights descend and sum to 1.
 SkinBinding bodyBinding(const Figure& figure, const Vec3& p);
-
-/// A skirt's: as the body's down to the waist, then the pelvis and more and more the thighs, shared
-/// between left and right. `loose` from 0 (hugs the thighs) to 1 (swings less than they do).
-SkinBinding skirtBinding(const Figure& figure, const Vec3& p, float loose);
 
 /// A vertex with the normal of `field` (outward), texture coordinates from the front, and `skin`.
 RawVertex makeVertex(const Figure& figure, const Field& field, const Vec3& position, const SkinBinding& skin);

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "assetpipe/built_in_recipes.h"
 #include "assetpipe/make_people.h"
+#include "assetpipe/people_colors.h"
 #include "core/atomic_file.h"
+#include "core/color.h"
 #include "core/nearest_name.h"
 #include "core/yaml_reader.h"
 
@@ -38,15 +41,15 @@ std::string readName(const YamlValue& value) {
   return name;
 }
 
-std::vector<std::string> readOutfits(const YamlValue& value, Sex sex) {
-  std::vector<std::string> known, chosen;
-  for (const OutfitPlan& plan : outfitPlans(sex)) known.push_back(plan.name);
+std::vector<std::string> readOutfits(const YamlValue& value) {
+  const std::vector<std::string> known = builtInRecipeNames();
+  std::vector<std::string> chosen;
   for (const YamlValue& item : value.items("a list of outfits")) {
     const std::string name = item.text("an outfit's name");
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      item.fail(item.description() + ", which is no outfit", "did you mean " +
-                                                                 quotedList(nearestNames(name, known)) +
-                                                                 "? There are " + quotedList(known, "and"));
+      item.fail(item.description() + ", which is no recipe of the program's",
+                "did you mean " + quotedList(nearestNames(name, known)) + "? There are " +
+                    quotedList(known, "and"));
     }
     if (std::find(chosen.begin(), chosen.end(), name) != chosen.end()) {
       item.fail(item.description() + ", which is there twice", "leave one out");
@@ -93,7 +96,7 @@ PersonConfig readPerson(const YamlValue& value) {
   if (person.figure.age == AgeGroup::kOld) person.colors.hair = linearFromSrgb(greyHair());
   if (const auto skin = value.find("skin")) person.colors.skin = readColor(*skin, skinTones());
   if (const auto hair = value.find("hair")) person.colors.hair = readColor(*hair, hairColors());
-  if (const auto outfits = value.find("outfits")) person.outfits = readOutfits(*outfits, person.figure.sex);
+  if (const auto outfits = value.find("outfits")) person.outfits = readOutfits(*outfits);
   if (const auto faces = value.find("faces")) {
     person.body_faces = static_cast<std::uint32_t>(faces->wholeNumber(1500, 20000));
   }

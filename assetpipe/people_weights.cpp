@@ -196,19 +196,4 @@ class Weigher {
 
 SkinBinding bodyBinding(const Figure& figure, const Vec3& p) { return toBinding(Weigher(figure, p).run()); }
 
-SkinBinding skirtBinding(const Figure& figure, const Vec3& p, float loose) {
-  const float s = figure.scale;
-  const float below_waist = smoothStep(-0.02f * s, 0.10f * s, figure.joints[kSpine1].y - p.y);
-  Weights weights = Weigher(figure, p).run();
-  for (float& weight : weights) weight *= 1.0f - below_waist;
-  const float down = smoothStep(-0.05f * s, glm::mix(0.06f, 0.26f, loose) * s, figure.joints[kThigh].y - p.y);
-  const float to_legs = below_waist * down * (1.0f - 0.45f * loose);
-  const float half = glm::mix(0.045f, 0.17f, loose) * s;
-  const float left_side = smoothStep(-half, half, p.x);
-  weights[kThigh] += to_legs * left_side;
-  weights[kThigh + kRightLeg] += to_legs * (1.0f - left_side);
-  weights[kPelvis] += below_waist - to_legs;
-  return toBinding(weights);
-}
-
 }  // namespace ensemble

@@ -109,7 +109,7 @@ std::vector<OutfitFile> readOutfits(const std::vector<fs::path>& files, const Ta
       std::max(1u, threads / static_cast<unsigned>(std::clamp<std::size_t>(files.size(), 1, threads)));
   std::mutex progress_mutex;
   Progress progress("tagging", files.size());
-  forEachOnThreads(threads, files.size(), [&](std::size_t i) {
+  forEachOnThreads(threads, files.size(), [&](std::size_t i, unsigned) {
     outfits[i] = readOutfit(files[i], body, options_of_one);
     const std::lock_guard lock(progress_mutex);
     progress.advance();

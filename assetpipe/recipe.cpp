@@ -143,8 +143,11 @@ std::string readName(const YamlValue& value) {
   return name;
 }
 
+std::string readMaterial(const YamlValue& value) { return oneOf(value, {"cloth", "hair", "shoes", "fixed"}); }
+
 TrimRecipe readTrim(const YamlValue& value) {
-  value.expectKeys({"name", "of", "width", "level", "arm", "across", "side", "slant", "raise", "color"});
+  value.expectKeys(
+      {"name", "material", "of", "width", "level", "arm", "across", "side", "slant", "raise", "color"});
   TrimRecipe trim;
   trim.mark = value.mark();
   const auto name = value.find("name");
@@ -152,6 +155,7 @@ TrimRecipe readTrim(const YamlValue& value) {
   if (!name || !color) value.fail(value.path() + " has no " + (name ? "color" : "name"), "add it");
   trim.name = readName(*name);
   trim.color = readColor(*color);
+  if (const auto material = value.find("material")) trim.material = readMaterial(*material);
   if (const auto of = value.find("of"))
     trim.of = oneOf(*of, {"hem", "top", "neck", "sleeves", "front", "edge", "sole"});
   trim.width = lengthOr(value, "width", trim.width, 1.0, 500.0);
@@ -334,8 +338,7 @@ GarmentRecipe readGarment(const YamlValue& value, const std::filesystem::path& f
   garment.kind = static_cast<GarmentKind>(kind->word({"body", "shoes", "head"}));
   expectKindKeys(value, garment.kind);
   garment.material = garment.kind == GarmentKind::kShoes ? "shoes" : slot == Slot::kHair ? "hair" : "cloth";
-  if (const auto material = value.find("material"))
-    garment.material = oneOf(*material, {"cloth", "hair", "shoes"});
+  if (const auto material = value.find("material")) garment.material = readMaterial(*material);
   readLooks(value, folder, garment);
   for (const auto& [key, list] : {std::pair("solids", &garment.solids), std::pair("cuts", &garment.cuts)}) {
     const auto solids = value.find(key);

@@ -55,6 +55,7 @@ struct SolidRecipe {
 /// A part of the cloth in a colour of its own, raised a little. Where several places are given it is where
 /// they overlap.
 struct TrimRecipe {
+  std::string material;  ///< first word of its material's name; empty: the garment's
   std::string name,
       of;  ///< of: along that opening ("hem", "top", "neck", "sleeves", "front", "edge"), or empty
   float width = 0.03f;                         ///< along an opening
@@ -101,7 +102,7 @@ enum class GarmentKind : std::uint8_t { kBody, kShoes, kHead };
 struct GarmentRecipe {
   std::string name;
   GarmentKind kind = GarmentKind::kBody;
-  std::string material = "cloth";  ///< first word of its materials' names
+  std::string material = "cloth";  ///< first word of its materials' names; "fixed": tints leave it alone
   std::uint32_t triangles = 1000;
   Vec3 color{0.5f};  ///< sRGB
   Pattern pattern;

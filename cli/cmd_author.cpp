@@ -65,15 +65,6 @@ std::vector<Recipe> loadRecipes(const AuthorArguments& arguments) {
   return recipes;
 }
 
-void warnAbout(const std::string& file, const AuthoredOutfit& outfit) {
-  for (const GarmentFigures& garment : outfit.garments) {
-    const std::size_t left = garment.pokes.cloth_in_body + garment.pokes.body_in_front;
-    if (left == 0) continue;
-    logWarning(fmt::format("{}: garment '{}' and the body still cross at {} vertices; give it more ease",
-                           file, garment.name, left));
-  }
-}
-
 void makeFolder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -99,7 +90,7 @@ void run(const AuthorArguments& arguments) {
     const std::filesystem::path file = std::filesystem::path(arguments.folder) / (recipe.name + ".glb");
     writeFileAtomically(file, writeGlb(outfit.asset));
     logDetail("wrote " + file.string());
-    warnAbout(recipe.file.string(), outfit);
+    for (const std::string& warning : outfit.warnings) logWarning(warning);
     figures["outfits"].push_back(figuresOf(recipe, file.string(), outfit));
     std::size_t faces = 0;
     for (const GarmentFigures& garment : outfit.garments) faces += garment.faces;

@@ -1,4 +1,4 @@
-// `ensemble people`: template people and outfits made from a few parameters.
+// `ensemble people`: template people made from a few parameters, and dressed.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -33,14 +33,13 @@ nlohmann::ordered_json figuresOf(const MadePerson& person) {
                                     {"walk_speed", person.walk_speed},
                                     {"run_speed", person.run_speed},
                                     {"outfits", nlohmann::ordered_json::array()}};
-  for (const MadeOutfit& outfit : person.outfits) {
-    nlohmann::ordered_json entry = {{"name", outfit.name},
-                                    {"visible_body_faces", faceCount(outfit.fitted.meshes.front())},
+  for (const MadeOutfit& made : person.outfits) {
+    nlohmann::ordered_json entry = {{"name", made.recipe.name},
+                                    {"slot", made.recipe.slot},
+                                    {"layer", made.recipe.layer},
                                     {"garments", nlohmann::ordered_json::array()}};
-    for (std::size_t i = 1; i < outfit.fitted.meshes.size(); ++i) {
-      const RawMeshNode& node = outfit.fitted.meshes[i];
-      entry["garments"].push_back({{"name", node.name}, {"faces", faceCount(node)}});
-    }
+    for (const GarmentFigures& garment : made.outfit.garments)
+      entry["garments"].push_back({{"name", "garment." + garment.name}, {"faces", garment.faces}});
     figures["outfits"].push_back(std::move(entry));
   }
   return figures;
@@ -55,6 +54,8 @@ void run(const PeopleArguments& arguments) {
   for (const PersonConfig& person_config : config.people) {
     const MadePerson person = makePerson(person_config, arguments.jobs);
     for (const auto& file : writePerson(person, arguments.folder)) logDetail("wrote " + file.string());
+    for (const MadeOutfit& made : person.outfits)
+      for (const std::string& warning : made.outfit.warnings) logWarning(person.name + ": " + warning);
     figures["people"].push_back(figuresOf(person));
     text +=
         fmt::format("{}: {} faces, {} outfits in {}\n", person.name, faceCount(person.body.meshes.front()),
@@ -68,16 +69,15 @@ void run(const PeopleArguments& arguments) {
 }  // namespace
 
 void addPeopleCommand(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("people", "Make template people and outfits from a few parameters");
+  CLI::App& command =
+      *app.add_subcommand("people", "Make template people from a few parameters, and dress them");
   const auto arguments = std::make_shared<PeopleArguments>();
   command
       .add_option("CONFIG", arguments->config,
                   "Who to make: names, sex, age, height, girth, build, colours, outfits (docs/people.md)")
       ->required()
       ->type_name("FILE.yaml");
-  command
-      .add_option("-o,--output", arguments->folder,
-                  "Write NAME/template.glb, NAME/outfits/ and NAME/unfitted/ here")
+  command.add_option("-o,--output", arguments->folder, "Write NAME/template.glb and NAME/outfits/ here")
       ->required()
       ->type_name("FOLDER");
   command.add_option("-j,--jobs", arguments->jobs, "Threads, 1 to 256; default: one a core")

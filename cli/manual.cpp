@@ -56,10 +56,12 @@ constexpr Manual kManuals[] = {
      "template's complete body, so `ensemble tag --occlusion auto` takes it.",
      "Reads recipes (docs/authoring.md) and a template. Writes FOLDER/NAME.glb for each recipe, whole or not "
      "at all."},
-    {"people", "Makes template people, with outfits and clips, from parameters.",
+    {"people", "Makes template people with clips from parameters, and dresses them.",
      "CONFIG tells of each person sex, age (young, adult or old), height (1.4 to 2.1 metres), girth and "
      "build (-1 "
-     "to 1), colours and outfits: docs/people.md. DIR/NAME gets template.glb, outfits/ and unfitted/."},
+     "to 1), colours, and which of the program's own recipes to dress it in: docs/people.md. FOLDER/NAME "
+     "gets "
+     "template.glb and outfits/, whose files hold the complete body."},
 };
 
 /// Text broken at spaces into lines of at most kColumns, each after `indent`.

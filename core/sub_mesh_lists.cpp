@@ -119,13 +119,16 @@ class ListsBuilder {
       for (const ItemPart& part : garment.parts) {
         if (!part.faces.empty()) {
           const std::uint32_t material = addMaterial(item.materials[part.material], item.images, false);
+          const std::span<const Garment> alike =
+              item.slot == Slot::kFull ? std::span(&garment, 1) : std::span(item.garments);
           const SubMesh sub_mesh{SubMeshKind::kGarment,
                                  addPart(part),
                                  material,
                                  addGarmentName(garment.name),
                                  face_offset,
                                  item.slot,
-                                 item.slot == Slot::kFull ? material : mainMaterial(item)};
+                                 mainMaterial(item, alike),
+                                 garment.parts.size() > 1};
           entry->second.push_back(addSubMesh(sub_mesh, 0));
         }
         face_offset += static_cast<std::uint32_t>(part.faces.size());
@@ -134,10 +137,10 @@ class ListsBuilder {
     return entry->second;
   }
 
-  /// The material of most of an item's faces.
-  std::uint32_t mainMaterial(const Item& item) {
+  /// The material of most faces of some of an item's garments.
+  std::uint32_t mainMaterial(const Item& item, std::span<const Garment> garments) {
     std::map<std::uint32_t, std::size_t> faces;
-    for (const Garment& garment : item.garments) {
+    for (const Garment& garment : garments) {
       for (const ItemPart& part : garment.parts) faces[part.material] += part.faces.size();
     }
     const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
@@ -311,13 +314,14 @@ class ListsBuilder {
 
   /// `rank` is its place in the order of drawing, the same in all techniques.
   SubMeshId addSubMesh(const SubMesh& sub_mesh, std::uint32_t rank) {
-    const std::array<std::uint32_t, 7> key{sub_mesh.list.value,
+    const std::array<std::uint32_t, 8> key{sub_mesh.list.value,
                                            sub_mesh.material,
                                            sub_mesh.region,
                                            sub_mesh.source_face_offset,
                                            static_cast<std::uint32_t>(sub_mesh.kind),
                                            static_cast<std::uint32_t>(sub_mesh.slot),
-                                           sub_mesh.main_material};
+                                           sub_mesh.main_material,
+                                           sub_mesh.has_trimmings ? 1u : 0u};
     const auto [entry, is_new] = sub_mesh_by_content_.try_emplace(key, SubMeshId(lists_.sub_meshes.size()));
     if (is_new) {
       lists_.sub_meshes.push(sub_mesh);
@@ -362,7 +366,7 @@ class ListsBuilder {
   std::map<std::string, MeshId> mesh_by_content_;
   std::map<std::string, IndexListId> list_by_content_;
   std::map<std::string, std::uint32_t> image_by_content_;
-  std::map<std::array<std::uint32_t, 7>, SubMeshId> sub_mesh_by_content_;
+  std::map<std::array<std::uint32_t, 8>, SubMeshId> sub_mesh_by_content_;
 };
 
 constexpr const char* kTechniqueNames[] = {"naive", "prefitted", "tagged"};

@@ -53,8 +53,10 @@ struct SubMesh {
   /// faces that only an outfit has follow the template's.
   std::uint32_t source_face_offset = 0;
   Slot slot = Slot::kFull;  ///< kGarment: of its item
-  /// Of a single item, that of most of its faces: its trimmings are coloured with it. Else `material`.
+  /// That of most faces of its item (of a `full` one: of its garment), with which trimmings are coloured; of
+  /// body `material`.
   std::uint32_t main_material = 0;
+  bool has_trimmings = false;  ///< kGarment: its garment has several materials
 };
 
 /// A material and where it came from.

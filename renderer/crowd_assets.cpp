@@ -98,7 +98,7 @@ class CrowdAssets::Builder {
     return mean;
   }
 
-  /// The material that a sub-mesh is tinted as: of a single item's trimmings that of the item.
+  /// The material that a sub-mesh is tinted as: of trimmings that of their item or garment.
   const ListMaterial& tintedAs(std::uint32_t w, const SubMesh& sub_mesh) const {
     const ListMaterial& own = lists(w).materials[sub_mesh.material];
     if (sub_mesh.kind == SubMeshKind::kBody) return own;
@@ -129,8 +129,9 @@ class CrowdAssets::Builder {
     material.tint_count = is_lower ? range.lower_count : range.count;
     material.tint_spread = range.spread;
     material.sheen = range.sheen;
-    // Only a complete outfit is a shirt and trousers in one.
-    material.lower_tint_count = sub_mesh.slot == Slot::kFull ? range.lower_count : 0;
+    // Only a complete outfit is a shirt and trousers in one; a belt tells nothing of the kind.
+    const bool may_be_two = sub_mesh.slot == Slot::kFull && !sub_mesh.has_trimmings;
+    material.lower_tint_count = may_be_two ? range.lower_count : 0;
     return material;
   }
 
@@ -210,15 +211,14 @@ class CrowdAssets::Builder {
     return *placed[id.value];
   }
 
-  /// Appends a material for one sub-mesh, unless the same one is there. Garments that share a
-  /// material have tints of their own, so the name goes into it; a single item has one, and those that a
-  /// person wears together are of different slots.
+  /// Appends a material for one sub-mesh, unless the same one is there. What is of one material in an item
+  /// has one tint, as jacket and trousers of a suit have; items that a person wears together are of different
+  /// slots.
   std::uint32_t addMaterial(std::uint32_t w, const SubMesh& sub_mesh) {
     const ListMaterial& from = lists(w).materials[sub_mesh.material];
     GpuMaterial material = makeMaterial(w, sub_mesh);
     const bool is_body = sub_mesh.kind == SubMeshKind::kBody;
-    std::string name = is_body ? std::string() : lists(w).garment_names[sub_mesh.region];
-    if (sub_mesh.slot != Slot::kFull) name = toString(sub_mesh.slot);
+    const std::string name = is_body ? "" : toString(sub_mesh.slot);
     material.tint_key = tintKey(tintKindOf(from.material.name, from.is_skin),
                                 name + "/" + tintedAs(w, sub_mesh).material.name);
     const auto same = [&](const GpuMaterial& other) {

@@ -33,15 +33,21 @@ decltype(auto) atPublicFace(const Function& function) {
   }
 }
 
-/// The mean colour of a template's skin over its faces, linear: what a skin tint replaces.
+/// The mean colour of a template's skin over its faces, linear: what a skin tint replaces. A head's texture
+/// with its hair and eyes tells less about it than plain skin does.
 Vec3 meanSkin(const Wardrobe& wardrobe) {
   const TemplateBody& body = wardrobe.body;
   const std::string file = (wardrobe.folder / wardrobe.template_file).string();
+  const auto is_plain_skin = [&](const BodyPart& part) {
+    const RawMaterial& material = body.materials[part.material];
+    return tintKindOf(material.name, true) == TintKind::kSkin && !material.image;
+  };
+  const bool has_plain = std::any_of(body.parts.begin(), body.parts.end(), is_plain_skin);
   glm::dvec3 sum(0.0);
   double faces = 0.0;
   for (const BodyPart& part : body.parts) {
     const RawMaterial& material = body.materials[part.material];
-    if (tintKindOf(material.name, true) != TintKind::kSkin) continue;
+    if (tintKindOf(material.name, true) != TintKind::kSkin || (has_plain && material.image)) continue;
     Vec3 color(material.base_color);
     if (material.image) color *= meanColor(decodeImage(body.images[*material.image], file));
     sum += glm::dvec3(color) * double{static_cast<double>(part.face_count)};

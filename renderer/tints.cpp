@@ -88,6 +88,7 @@ bool containsAny(const std::string& text, std::initializer_list<const char*> wor
 
 TintKind tintKindOf(std::string_view material_name, bool is_body) {
   const std::string name = lowerCase(material_name);
+  if (name.starts_with("fixed.")) return TintKind::kNone;
   if (containsAny(name, {"brow"})) return TintKind::kHair;
   if (containsAny(name, {"eye", "teeth", "tooth", "tongue", "lash", "nail"})) return TintKind::kNone;
   if (name.starts_with("hair")) return TintKind::kHair;

@@ -12,8 +12,8 @@ namespace ensemble {
 enum class TintKind : std::uint8_t { kNone, kSkin, kHair, kShoes, kCloth };
 
 /// What a material is, from its name and whether it belongs to the body. A path of names parted by
-/// dots or colons is read by its first words: "hair.bob02", "cloth.shoes01". Eyes, teeth, tongue,
-/// nails and lashes keep their colour; brows go with the hair.
+/// dots or colons is read by its first words: "hair.bob02", "cloth.shoes01". "fixed.", eyes, teeth,
+/// tongue, nails and lashes keep their colour; brows go with the hair.
 TintKind tintKindOf(std::string_view material_name, bool is_body);
 
 /// The colours of a kind, in `tintTable()`.

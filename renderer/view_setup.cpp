@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/color.h"
+
 namespace ensemble {
 namespace {
 
@@ -22,14 +24,6 @@ constexpr Vec3 kAmbientUp{0.36f, 0.42f, 0.50f};
 constexpr Vec3 kAmbientDown{0.20f, 0.185f, 0.165f};
 constexpr Vec3 kHorizon{0.70f, 0.79f, 0.88f};
 constexpr Vec3 kZenith{0.16f, 0.33f, 0.66f};
-
-Vec3 linearFromSrgb(Vec3 c) {
-  Vec3 linear;
-  for (int i = 0; i < 3; ++i) {
-    linear[i] = c[i] <= 0.04045f ? c[i] / 12.92f : std::pow((c[i] + 0.055f) / 1.055f, 2.4f);
-  }
-  return linear;
-}
 
 Vec3 unitOr(Vec3 v, Vec3 otherwise) {
   const float length = glm::length(v);

@@ -4,7 +4,7 @@
 # Dresses templates in every recipe of outfits/ and draws one contact sheet for each template: every outfit
 # from the front and from behind, in the order of the recipes' names, eight a row. Without templates: the woman
 # and the man of config/people/two.yaml, and those in ../shared/people where that folder is there. Writes
-# contact_NAME.png, NAME being the template's folder.
+# contact_NAME.png, NAME being the template's folder; with fewer colours where ffmpeg is installed, so that it is small.
 #
 #   -o FOLDER         where to (default: docs/figures)
 #   --occlusion KIND  as of `ensemble tag` (default: authored, complete bodies, so that what pokes through shows)
@@ -34,7 +34,8 @@ mkdir -p "$folder"
 
 if [ ${#templates[@]} -eq 0 ]; then
   say "Making people"
-  "$program" people "$project/config/people/two.yaml" -o "$work/people"
+  sed 's/outfits: .*/outfits: [cap]/' "$project/config/people/two.yaml" >"$work/two.yaml"  # dressed below
+  "$program" people "$work/two.yaml" -o "$work/people"
   for template in "$work"/people/*/template.glb "$project"/../shared/people/*/template.glb; do
     [ ! -f "$template" ] || templates+=("$template")
   done
@@ -45,7 +46,8 @@ writeScene() {
   cat <<EOF
 version: 1
 wardrobe: $1
-output: {width: 1440, height: 1080, samples: 4, background: transparent}
+output: {width: 1200, height: 900, samples: 4, background: [0.93, 0.94, 0.95]}
+ground: false
 crowd: {count: 0}
 people:
 EOF
@@ -66,11 +68,22 @@ light: {direction: [-0.35, -0.6, -0.7], shadows: false}
 EOF
 }
 
+# fewerColours FROM TO: 96 of them.
+fewerColours() {
+  if command -v ffmpeg >/dev/null; then
+    ffmpeg -v error -y -i "$1" -vf \
+      'split[a][b];[a]palettegen=max_colors=96:reserve_transparent=0[p];[b][p]paletteuse=dither=none' "$2"
+  else
+    cp "$1" "$2"
+  fi
+}
+
 for template in "${templates[@]}"; do
   name=$(basename "$(dirname "$template")")
   say "Dressing $name"
   "$program" author "${recipes[@]}" --template "$template" -o "$work/$name" > /dev/null
   "$program" tag "$template" "$work/$name"/*.glb -o "$work/wardrobe_$name" --occlusion "$occlusion" -q
   writeScene "$work/wardrobe_$name" > "$work/$name.yaml"
-  "$program" render "$work/$name.yaml" -o "$folder/contact_$name.png"
+  "$program" render "$work/$name.yaml" -o "$work/contact_$name.png"
+  fewerColours "$work/contact_$name.png" "$folder/contact_$name.png"
 done

@@ -18,11 +18,12 @@ build_packages=(
   libavcodec-dev libavformat-dev libavutil-dev libcgal-dev libcli11-dev libdraco-dev libembree-dev libfmt-dev libglm-dev
   libjpeg62-turbo-dev libmeshoptimizer-dev libopenexr-dev libpng-dev libspdlog-dev libssl-dev
   libswscale-dev libtinygltf-dev libvalijson-dev libyaml-cpp-dev nlohmann-json3-dev
+  python3
 )
 # GoogleTest, the validation layers, and what the proofs ask for a second opinion: Blender, and the
 # Khronos glTF validator and Draco's own encoder, which come through npm.
 test_packages=(
-  libgtest-dev libgmock-dev vulkan-validationlayers clang-format python3 blender python3-numpy
+  libgtest-dev libgmock-dev vulkan-validationlayers clang-format blender python3-numpy
   nodejs npm
 )
 

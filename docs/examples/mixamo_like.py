@@ -81,7 +81,7 @@ def main():
             travel(armature, action)
         export(out / target, armature, action)
     (out / "dressed").mkdir(exist_ok=True)
-    for file in sorted((folder / "unfitted").glob("*.glb")):
+    for file in sorted((folder / "dressed").glob("*.glb")):
         load(file)
         bpy.ops.export_scene.gltf(filepath=str(out / "dressed" / file.name), export_format="GLB")
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -16,6 +18,7 @@
 #include "core/gltf_file.h"
 #include "core/input_error.h"
 #include "tests/assetpipe/person_config.h"
+#include "tests/assetpipe/poke_through.h"
 
 namespace ensemble {
 namespace {
@@ -143,6 +146,27 @@ TEST_P(Authoring, DressesTheBodyAndTagsAgain) {
 
 INSTANTIATE_TEST_SUITE_P(People, Authoring, ::testing::Values("woman", "man", "female", "male"));
 
+// What is covered at rest stays covered when people move. All recipes with ENSEMBLE_FULL_TESTS.
+TEST_P(Authoring, SkinDoesNotComeThroughInMotion) {
+  const Person& person = personOf(GetParam());
+  const bool is_full = std::getenv("ENSEMBLE_FULL_TESTS") != nullptr;
+  const std::set<std::string> sample = {"trousers", "uniform"};
+  for (const fs::path& file : recipeFiles()) {
+    const Recipe recipe = loadRecipe(file);
+    if (recipe.slot == "hair" || recipe.slot == "head" || !(is_full || sample.contains(recipe.name)))
+      continue;
+    const AuthoredOutfit outfit = authorOutfit(recipe, person.asset, *person.measured);
+    const testing::PokeThrough poke = testing::countPokeThrough(person.asset, outfit.asset);
+    std::printf("%s %-14s %zu at rest, %zu of %zu in motion (%.2f %%)\n", GetParam().c_str(),
+                recipe.name.c_str(), poke.at_rest, poke.poking, poke.looked_at,
+                100.0 * static_cast<double>(poke.poking) /
+                    static_cast<double>(std::max<std::size_t>(poke.looked_at, 1)));
+    std::fflush(stdout);
+    EXPECT_EQ(poke.at_rest, 0u) << recipe.name;
+    EXPECT_LE(poke.poking * 200, poke.looked_at) << recipe.name;
+  }
+}
+
 TEST(Author, TheSameRecipeGivesTheSameBytes) {
   const Person& person = personOf("man");
   const Recipe recipe = loadRecipe("outfits/shoes.yaml");
@@ -165,6 +189,38 @@ TEST(Author, OrdersGarmentsByTheirEase) {
   const float tight = meanOf(6.0f), loose = meanOf(20.0f);
   EXPECT_NEAR(tight, 0.006f, 0.003f);
   EXPECT_NEAR(loose, 0.020f, 0.006f);
+}
+
+// The suit's shirt under its jacket, which knows of it.
+TEST(Author, GarmentsOfOneRecipeLieOverEachOther) {
+  const Person& person = personOf("woman");
+  const AuthoredOutfit outfit = authorOutfit(loadRecipe("outfits/suit.yaml"), person.asset, *person.measured);
+  const std::size_t first = person.asset.meshes.size();
+  const auto surfaceOf = [&](const RawMeshNode& node) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> faces;
+    for (const RawPrimitive& primitive : node.primitives) {
+      const auto offset = static_cast<std::uint32_t>(positions.size());
+      for (const RawVertex& vertex : primitive.vertices) positions.push_back(vertex.position);
+      for (const Triangle& face : primitive.faces)
+        faces.push_back({face[0] + offset, face[1] + offset, face[2] + offset});
+    }
+    return std::make_unique<BodySurface>(positions, faces);
+  };
+  const auto shirt = surfaceOf(outfit.asset.meshes[first + 1]),
+             jacket = surfaceOf(outfit.asset.meshes[first + 2]);
+  std::size_t covered = 0;
+  for (std::size_t v = 0; v < shirt->positions().size(); ++v) {
+    const auto cover = coverOf(*jacket, shirt->positions()[v], shirt->normals()[v]);
+    covered += cover ? 1 : 0;
+    if (cover) {
+      EXPECT_LT(cover->ahead, kPokeTolerance);
+    }
+  }
+  EXPECT_GT(covered, 50u);
+  // Jacket and trousers are of one cloth, so one tint colours both.
+  EXPECT_EQ(outfit.asset.meshes[first].primitives[0].material,
+            outfit.asset.meshes[first + 2].primitives[0].material);
 }
 
 TEST(Author, CountsWhatPokesThrough) {

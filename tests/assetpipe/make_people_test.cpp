@@ -11,11 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "assetpipe/built_in_recipes.h"
 #include "assetpipe/ground_speed.h"
 #include "assetpipe/people_body.h"
 #include "assetpipe/people_clips.h"
+#include "assetpipe/people_colors.h"
 #include "core/clip.h"
+#include "core/color.h"
 #include "core/gltf_file.h"
+#include "core/nearest_name.h"
 #include "tests/assetpipe/person_config.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
@@ -240,25 +244,26 @@ TEST_P(EachSex, PlantedFeetDoNotSlide) {
 
 TEST(MakePeople, SameConfigurationGivesTheSameBytes) {
   PersonConfig config = configOf(Sex::kMale);
-  config.outfits = {"casual"};
+  config.outfits = {"cap", "shorts", "vest"};
   const MadePerson first = makePerson(config, 1), again = makePerson(config, 3);
   EXPECT_EQ(writeGlb(again.body), writeGlb(first.body));
   EXPECT_EQ(writeGlb(makeTemplatePerson(config)), writeGlb(first.body));
-  ASSERT_EQ(again.outfits.size(), 1u);
-  EXPECT_EQ(writeGlb(again.outfits[0].fitted), writeGlb(first.outfits[0].fitted));
-  EXPECT_EQ(writeGlb(again.outfits[0].unfitted), writeGlb(first.outfits[0].unfitted));
+  ASSERT_EQ(again.outfits.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again.outfits[i].recipe.name, config.outfits[i]);
+    EXPECT_EQ(writeGlb(again.outfits[i].outfit.asset), writeGlb(first.outfits[i].outfit.asset));
+  }
 }
 
 TEST(MakePeople, FilesAreReadBackAsMade) {
   const testing::TemporaryFolder folder;
   PersonConfig config = configOf(Sex::kFemale);
-  config.outfits = {"summer"};
+  config.outfits = {"summer_dress"};
   const MadePerson made = makePerson(config);
   const auto files = writePerson(made, folder.path());
-  ASSERT_EQ(files.size(), 3u);
+  ASSERT_EQ(files.size(), 2u);
   EXPECT_EQ(files[0], folder.path() / "woman" / "template.glb");
-  EXPECT_EQ(files[1], folder.path() / "woman" / "outfits" / "summer.glb");
-  EXPECT_EQ(files[2], folder.path() / "woman" / "unfitted" / "summer.glb");
+  EXPECT_EQ(files[1], folder.path() / "woman" / "outfits" / "summer_dress.glb");
   const RawAsset body = readGltf(files[0]), outfit = readGltf(files[1]);
   EXPECT_TRUE(body.warnings.empty());
   ASSERT_EQ(body.meshes.size(), 1u);
@@ -266,10 +271,11 @@ TEST(MakePeople, FilesAreReadBackAsMade) {
   EXPECT_EQ(body.skeleton.joints.size(), 53u);
   ASSERT_EQ(body.clips.size(), 5u);
   EXPECT_EQ(body.clips[0].name, "walk");
-  ASSERT_EQ(outfit.meshes.size(), made.outfits[0].fitted.meshes.size());
+  const RawAsset& dressed = made.outfits[0].outfit.asset;
+  ASSERT_EQ(outfit.meshes.size(), dressed.meshes.size());
   for (std::size_t n = 0; n < outfit.meshes.size(); ++n) {
-    EXPECT_EQ(outfit.meshes[n].name, made.outfits[0].fitted.meshes[n].name);
-    EXPECT_EQ(faceCount(outfit.meshes[n]), faceCount(made.outfits[0].fitted.meshes[n]));
+    EXPECT_EQ(outfit.meshes[n].name, dressed.meshes[n].name);
+    EXPECT_EQ(faceCount(outfit.meshes[n]), faceCount(dressed.meshes[n]));
   }
 }
 
@@ -299,7 +305,7 @@ TEST(PeopleConfig, ReadsEveryKey) {
       "people:\n"
       "  - {name: ann, sex: female, age: old, height: 1.7, girth: -0.25, build: 0.5, seed: 7, skin: tan, "
       "hair: [1, 0, 0], outfits: "
-      "[summer], faces: 4000}\n"
+      "[shirt, jeans], faces: 4000}\n"
       "  - {name: bob, sex: male}\n");
   ASSERT_EQ(config.people.size(), 2u);
   const PersonConfig& ann = config.people[0];
@@ -312,7 +318,7 @@ TEST(PeopleConfig, ReadsEveryKey) {
   EXPECT_FLOAT_EQ(ann.figure.build, 0.5f);
   EXPECT_EQ(ann.seed, 7u);
   EXPECT_EQ(ann.colors.hair, Vec3(1.0f, 0.0f, 0.0f));
-  EXPECT_EQ(ann.outfits, std::vector<std::string>{"summer"});
+  EXPECT_EQ(ann.outfits, (std::vector<std::string>{"shirt", "jeans"}));
   EXPECT_EQ(ann.body_faces, 4000u);
   EXPECT_EQ(config.people[1].figure.sex, Sex::kMale);
   EXPECT_EQ(config.people[1].figure.age, AgeGroup::kAdult);
@@ -363,8 +369,10 @@ TEST(PeopleConfig, ErrorsTellHowToMend) {
                      "p.yaml: 2:37: people.0.skin is 'green', which is no colour known here; write 'pale', "
                      "'fair', 'olive', 'tan', 'brown' or 'dark' or [r, g, b] from 0 to 1");
   EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, outfits: [suite]}]\n"),
-                     "p.yaml: 2:41: people.0.outfits.0 is 'suite', which is no outfit; did you mean 'suit'? "
-                     "There are 'casual', 'suit', 'sport' and 'weekend'");
+                     "p.yaml: 2:41: people.0.outfits.0 is 'suite', which is no recipe of the program's; did "
+                     "you mean 'suit'? "
+                     "There are " +
+                         quotedList(builtInRecipeNames(), "and"));
   EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male, outfits: [suit, suit]}]\n"),
                      "p.yaml: 2:47: people.0.outfits.1 is 'suit', which is there twice; leave one out");
   EXPECT_INPUT_ERROR(parse("version: 1\npeople: [{name: a, sex: male}, {name: a, sex: male}]\n"),

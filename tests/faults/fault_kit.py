@@ -13,7 +13,7 @@ from small_glb import outfit, template  # noqa: E402
 SKIPPED = 77
 SCENE = ("version: 1\nwardrobe: {}\noutput: {{width: 32, height: 32, samples: 1, frames: 2, fps: 1}}\n"
          "crowd: {{count: 2}}\ncamera: {{position: [0, 1, 4], target: [0, 0.9, 0]}}\n")
-PEOPLE = ("version: 1\npeople:\n  - {name: ann, sex: female, faces: 1500, outfits: [summer]}\n")
+PEOPLE = ("version: 1\npeople:\n  - {name: ann, sex: female, faces: 1500, outfits: [cap]}\n")
 
 
 def options():

@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include "assetpipe/pipeline.h"
 #include "renderer/renderer.h"
+#include "tests/pictures/all_sides.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ensemble {
@@ -19,9 +18,6 @@ namespace fs = std::filesystem;
 
 const fs::path kPeople = "../shared/people";  // tests run in the project's folder
 constexpr std::uint32_t kSize = 256;
-
-/// `scripts/test.sh --full` looks from more sides and at more times.
-bool isFull() { return std::getenv("ENSEMBLE_FULL_TESTS") != nullptr; }
 
 /// Counts of pixels over many pictures.
 struct Tally {
@@ -56,33 +52,11 @@ class OcclusionPictures : public ::testing::TestWithParam<std::string> {
     wardrobe.push_back(loadWardrobe(folder_ / kind));
   }
 
-  /// One person from sides that lie evenly over the sphere.
-  std::vector<View> views(const Scene& scene) const {
-    const int count = isFull() ? 60 : 12;
-    std::vector<View> views;
-    for (int i = 0; i < count; ++i) {
-      View view = viewOf(scene);
-      const float up = 1.0f - (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(count);
-      const float out = std::sqrt(1.0f - up * up), turn = 2.399963f * static_cast<float>(i);
-      view.camera.target = Vec3(0.0f, 0.9f, 0.0f);
-      view.camera.position = view.camera.target + 4.0f * Vec3(out * std::cos(turn), up, out * std::sin(turn));
-      view.aovs = {Aov::kCharacter, Aov::kRegion, Aov::kFace, Aov::kDepth};
-      views.push_back(view);
-    }
-    return views;
-  }
-
   std::vector<Picture> draw(std::vector<Wardrobe>& wardrobe, const std::string& outfit,
                             const std::string& clip, Technique technique, double seconds) {
-    const std::string text =
-        std::string("version: 1\nwardrobe: w\ntechnique: ") + toString(technique) +
-        "\noutput: {width: " + std::to_string(kSize) + ", height: " + std::to_string(kSize) +
-        ", samples: 1, background: transparent}\nlight: {shadows: false}\ncamera: {position: [0, 1, 4], "
-        "target: [0, 0.9, 0], fov_y: 30}\npeople:\n  - {outfit: " +
-        outfit + ", clip: " + clip + ", phase: 0, position: [0, 0, 0], heading: 0}\n";
-    const Scene scene = parseScene(text, folder_ / "scene.yaml");
+    const Scene scene = testing::sceneOfOne(outfit, clip, technique, kSize);
     renderer_.load(scene, wardrobe);
-    const std::vector<View> sides = views(scene);
+    const std::vector<View> sides = testing::viewsFromAllSides(scene);
     std::vector<Picture> pictures(sides.size());
     renderer_.render(sides, seconds, pictures);
     return pictures;
@@ -130,7 +104,7 @@ TEST_P(OcclusionPictures, AreThoseOfTheMakersWithFewerHoles) {
   for (std::size_t i = 0; i < automatic_[0].items.size(); ++i) {
     Tally outfit;
     for (const Clip& clip : body.clips) {
-      const int steps = isFull() ? static_cast<int>(clip.key_count - 1) / 4 : 3;
+      const int steps = testing::isFull() ? static_cast<int>(clip.key_count - 1) / 4 : 3;
       for (int step = 0; step < steps; ++step) {  // between key frames, too
         outfit.add(compare(ItemId(i), clip.name, double{clip.seconds} * (step + 0.3) / steps));
       }

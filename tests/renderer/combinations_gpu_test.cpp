@@ -170,5 +170,35 @@ TEST_F(ItemColours, TrimmingsFollowTheirItem) {
   }
 }
 
+// A belt in between does not make a shirt and trousers of a dress; a fixed one keeps its colour.
+TEST_F(ItemColours, ABeltDoesNotPartADress) {
+  dress(Slot::kFull, Slot::kFeet);
+  Item& item = wardrobes_[0].items[ItemId(0)];
+  testing::addBand(item, "garment.dress", testing::clothMaterial("cloth.dress"), 0.32f, 0.2f, 0.8f);
+  RawMaterial belt = testing::clothMaterial("fixed.dress.belt");
+  belt.base_color = Vec4(0.4f, 0.4f, 0.4f, 1.0f);
+  testing::addBand(item, "", belt, 0.32f, 0.8f, 1.0f);
+  testing::addBand(item, "", item.materials[1], 0.32f, 1.0f, 1.6f);
+  std::vector<Garment> made(item.garments.end() - 3, item.garments.end());
+  RawPrimitive cloth = made[0].parts[0];
+  for (Triangle face : made[2].parts[0].faces) {
+    for (std::uint32_t& corner : face) corner += static_cast<std::uint32_t>(cloth.vertices.size());
+    cloth.faces.push_back(face);
+  }
+  const std::vector<RawVertex>& above = made[2].parts[0].vertices;
+  cloth.vertices.insert(cloth.vertices.end(), above.begin(), above.end());
+  item.garments = {{"garment.dress", {cloth, made[1].parts[0]}}};
+  std::set<int> reds;
+  for (std::uint32_t tint = 0; tint < 8; ++tint) {
+    const Picture picture = drawPerson(tint, Technique::kTagged);
+    const Vec3 bodice = shareAt(picture, 1.3f), skirt = shareAt(picture, 0.5f),
+               at_belt = shareAt(picture, 0.9f);
+    EXPECT_LT(glm::distance(bodice, skirt), 3.0f) << tint;
+    EXPECT_LT(glm::distance(at_belt, Vec3(100.0f / 3)), 4.0f) << tint;
+    reds.insert(static_cast<int>(bodice.x));
+  }
+  EXPECT_GE(reds.size(), 4u);
+}
+
 }  // namespace
 }  // namespace ensemble

@@ -66,6 +66,8 @@ TEST(Tints, KindsFollowNames) {
   EXPECT_EQ(tintKindOf("hair.bob02", false), TintKind::kHair);
   EXPECT_EQ(tintKindOf("cloth.shoes01", false), TintKind::kShoes);
   EXPECT_EQ(tintKindOf("cloth.casual01", false), TintKind::kCloth);
+  EXPECT_EQ(tintKindOf("fixed.shoes.sole", false), TintKind::kNone);
+  EXPECT_EQ(tintKindOf("fixedcloth", false), TintKind::kCloth);
 }
 
 TEST(Tints, RangesCoverTheTableOnce) {
