@@ -61,8 +61,8 @@ Box boxOf(std::span<const Vec3> points) {
 /// Four views beside each other of the body at rest.
 Image8 drawVerdicts(const TemplateBody& body, std::span<const Color> colors) {
   const RayDevice device;
-  const RayScene scene(device, body, {}, skinningMatrices(body.skeleton, restPose(body.skeleton)));
-  const Box box = boxOf(scene.body());
+  const RayScene scene(device, surfaceOf(body), {}, skinningMatrices(body.skeleton, restPose(body.skeleton)));
+  const Box box = boxOf(scene.vertices());
   const Vec3 center = box.center(), extent = box.extent();
   const float width = std::max(extent.x, extent.z);
   const float pixel = 1.05f * std::max(extent.y / kHeight, width / kWidth);
@@ -90,6 +90,7 @@ double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
 
 Json describeFace(const TemplateBody& body, const FaceHoles& holes, std::uint32_t number, FaceId face) {
   const FaceHole& hole = holes.faces[face];
+  if (hole.is_in_bare_region) return {{"face", number}, {"verdict", "bare region"}};
   if (hole.pose == FaceHole::kNoPose) return {{"face", number}, {"verdict", "pinhole"}};
   Json json = {{"face", number}, {"verdict", hole.is_kept ? "kept" : "hole"}};
   const ViewedPose& pose = holes.poses[hole.pose];

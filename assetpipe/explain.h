@@ -11,9 +11,11 @@ namespace ensemble {
 /// (kExplainColors in the source, docs/wardrobe.md), and FOLDER/NAME.json:
 /// {"schema": "ensemble.explain/1", "outfit", "tolerance_mm", "hole_share", "hole_mm2",
 ///  "regions": [{"name", "kept", "hidden", "faces": [{"face": number in the template file's own order within
-///  the region, "verdict": "kept" | "hole" | "pinhole", "clip", "seconds", "share", "mm2"}]}]}.
+///  the region, "verdict": "kept" | "hole" | "pinhole" | "bare region", "clip", "seconds", "share",
+///  "mm2"}]}]}.
 /// "kept" names the clip and the time that show most of the face; "hole" is a face that is left out though a
-/// little of it could be seen there, "pinhole" one that is kept because those around it are.
+/// little of it could be seen there, "pinhole" one that is kept because those around it are, "bare region"
+/// one that is kept because clothes hide nothing of its region.
 /// @param item with its visible faces
 /// @param authored 1 for what its author left visible, #F
 /// @throws SystemError

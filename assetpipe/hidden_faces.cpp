@@ -40,20 +40,20 @@ std::vector<ViewedPose> choosePoses(const TemplateBody& body, std::uint32_t most
 }
 
 /// Per face: those that share an edge with it, by positions, so that seams of normals and materials are none.
-std::vector<std::vector<std::uint32_t>> neighbours(const TemplateBody& body) {
+std::vector<std::vector<std::uint32_t>> neighbours(const ViewedSurface& surface) {
   using Point = std::array<float, 3>;
   const auto pointOf = [&](std::uint32_t vertex) {
-    const Vec3 position = body.vertices[VertexId(vertex)].position;
+    const Vec3 position = surface.vertices[vertex].position;
     return Point{position.x, position.y, position.z};
   };
   std::map<std::pair<Point, Point>, std::vector<std::uint32_t>> edges;
-  for (std::uint32_t f = 0; f < body.faces.size(); ++f) {
-    const Triangle& corners = body.faces[FaceId(f)];
+  for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
+    const Triangle& corners = surface.faces[f];
     for (std::size_t i = 0; i < 3; ++i) {
       edges[std::minmax(pointOf(corners[i]), pointOf(corners[(i + 1) % 3]))].push_back(f);
     }
   }
-  std::vector<std::vector<std::uint32_t>> result(body.faces.size());
+  std::vector<std::vector<std::uint32_t>> result(surface.faces.size());
   for (const auto& [edge, faces] : edges) {
     for (const std::uint32_t a : faces) {
       for (const std::uint32_t b : faces) {
@@ -65,8 +65,8 @@ std::vector<std::vector<std::uint32_t>> neighbours(const TemplateBody& body) {
 }
 
 /// Turns connected patches of at most `most` faces that are kept (or not), none of them plainly.
-void joinPatches(const TemplateBody& body, std::uint32_t most, bool kept, PerFace<FaceHole>& faces) {
-  const std::vector<std::vector<std::uint32_t>> next_to = neighbours(body);
+void joinPatches(const std::vector<std::vector<std::uint32_t>>& next_to, std::uint32_t most, bool kept,
+                 PerFace<FaceHole>& faces) {
   std::vector<bool> visited(faces.size(), false);
   for (std::uint32_t start = 0; start < faces.size(); ++start) {
     if (visited[start] || faces[FaceId(start)].is_kept != kept) continue;
@@ -94,24 +94,27 @@ void joinPatches(const TemplateBody& body, std::uint32_t most, bool kept, PerFac
 class Lookout {
  public:
   /// @param number of the pose: shifts points and directions, so that each pose tries others
-  Lookout(const RayDevice& device, const TemplateBody& body, std::span<const Item* const> items,
+  Lookout(const RayDevice& device, const ViewedSurface& surface, const RayScene::Around& around,
           std::span<const Mat4> matrices, const HiddenFaceOptions& options, std::uint32_t number)
-      : scene_(device, body, items, matrices), options_(options), shift_(fraction(kPlastic * number)) {}
+      : scene_(device, surface, around, matrices), options_(options), shift_(fraction(kPlastic * number)) {}
 
   struct Hole {
     float share = 0.0f, area = 0.0f;
   };
-  Hole holeOf(const Triangle& corners, std::uint32_t face) const {
-    const Vec3 a = scene_.body()[corners[0]], b = scene_.body()[corners[1]], c = scene_.body()[corners[2]];
+  Hole holeOf(const Triangle& corners, FaceKind kind, std::uint32_t face) const {
+    const std::span<const Vec3> vertices = scene_.vertices();
+    const Vec3 a = vertices[corners[0]], b = vertices[corners[1]], c = vertices[corners[2]];
     const Vec3 doubled = glm::cross(b - a, c - a);
     const float length = glm::length(doubled);
     if (!(length > 0.0f)) return {};
     double missed = 0.0;
     for (std::uint32_t s = 0; s < options_.samples; ++s) {
+      if (s == options_.scouts && s > 0 && missed == 0.0) return {};
       double u = fraction(shift_ + kPlastic * (s + 1)), v = fraction(shift_ + kPlastic2 * (s + 1));
       if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
       const Vec3 point = a + static_cast<float>(u) * (b - a) + static_cast<float>(v) * (c - a);
       missed += missedAt(point, doubled / length, face, s);
+      if (kind.is_two_sided) missed += missedAt(point, -doubled / length, face, s);
     }
     // Cosines over a hemisphere are 1/2 on average; a picture from any side shows 1/4 of a surface on
     // average.
@@ -146,10 +149,18 @@ class Lookout {
 /// Looks at all faces in all poses, some poses at a time so that their scenes fit into memory.
 class Search {
  public:
-  Search(const TemplateBody& body, std::span<const Item* const> items, const HiddenFaceOptions& options)
-      : body_(body), items_(items), options_(options) {
+  /// @param body whose clips are looked at
+  Search(const TemplateBody& body, ViewedSurface surface, const RayScene::Around& around,
+         const HiddenFaceOptions& options)
+      : body_(body), surface_(std::move(surface)), around_(around), options_(options) {
     found_.poses = choosePoses(body, options.poses);
-    found_.faces = PerFace<FaceHole>(body.faces.size());
+    found_.faces = PerFace<FaceHole>(surface_.faces.size());
+  }
+
+  /// Faces that are hidden without the items are so with them.
+  void skipHidden(const FaceHoles& without) {
+    skipped_.resize(found_.faces.size());
+    for (std::size_t f = 0; f < skipped_.size(); ++f) skipped_[f] = !without.faces[FaceId(f)].is_kept;
   }
 
   FaceHoles find() {
@@ -159,7 +170,7 @@ class Search {
       std::vector<std::optional<Lookout>> lookouts(count);
       forEachOnThreads(threads, count, [&](std::size_t i, unsigned) {
         const std::vector<Mat4> matrices = matricesAt(body_, found_.poses[first + i]);
-        lookouts[i].emplace(device_, body_, items_, matrices, options_,
+        lookouts[i].emplace(device_, surface_, around_, matrices, options_,
                             static_cast<std::uint32_t>(first + i));
       });
       forEachOnThreads(threads, found_.faces.size(), [&](std::size_t face, unsigned) {
@@ -167,7 +178,8 @@ class Search {
           look(*lookouts[i], first + i, static_cast<std::uint32_t>(face));
       });
     }
-    for (const bool kept : {true, false}) joinPatches(body_, options_.patch, kept, found_.faces);
+    const std::vector<std::vector<std::uint32_t>> next_to = neighbours(surface_);
+    for (const bool kept : {true, false}) joinPatches(next_to, options_.patch, kept, found_.faces);
     return std::move(found_);
   }
 
@@ -177,8 +189,8 @@ class Search {
 
   void look(const Lookout& lookout, std::size_t pose, std::uint32_t number) {
     FaceHole& face = found_.faces[FaceId(number)];
-    if (face.is_plain) return;
-    const Lookout::Hole hole = lookout.holeOf(body_.faces[FaceId(number)], number);
+    if (face.is_plain || (!skipped_.empty() && skipped_[number])) return;
+    const Lookout::Hole hole = lookout.holeOf(surface_.faces[number], surface_.kinds[number], number);
     if (hole.share > face.share) {
       face.share = hole.share;
       face.pose = static_cast<std::uint32_t>(pose);
@@ -190,17 +202,46 @@ class Search {
   }
 
   const TemplateBody& body_;
-  std::span<const Item* const> items_;
-  const HiddenFaceOptions& options_;
+  const ViewedSurface surface_;
+  const RayScene::Around around_;
+  const HiddenFaceOptions options_;
   RayDevice device_;
   FaceHoles found_;
+  std::vector<bool> skipped_;  ///< per face; empty: none
 };
 
 }  // namespace
 
 FaceHoles findHoles(const TemplateBody& body, std::span<const Item* const> items,
                     const HiddenFaceOptions& options) {
-  return Search(body, items, options).find();
+  return Search(body, surfaceOf(body), {.body = nullptr, .items = items}, options).find();
+}
+
+namespace {
+
+/// Pairs of items are many, and most of their faces show nothing at all in most poses.
+HiddenFaceOptions withScouts(HiddenFaceOptions options) {
+  options.scouts = 1;
+  return options;
+}
+
+}  // namespace
+
+FaceHoles findHolesOf(const Item& inner, const TemplateBody& body, const HiddenFaceOptions& options) {
+  return Search(body, surfaceOf(inner), {.body = &body, .items = {}}, withScouts(options)).find();
+}
+
+FaceHoles findHolesUnder(const Item& inner, const Item& outer, const TemplateBody& body,
+                         const FaceHoles& alone, const HiddenFaceOptions& options) {
+  const Item* around = &outer;
+  Search search(body, surfaceOf(inner), {.body = &body, .items = std::span(&around, 1)}, withScouts(options));
+  search.skipHidden(alone);
+  return search.find();
+}
+
+const FaceHoles& BareBody::holes() {
+  std::call_once(looked_, [&] { holes_ = findHoles(body_, {}, options_); });
+  return holes_;
 }
 
 }  // namespace ensemble

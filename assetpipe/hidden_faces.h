@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct HiddenFaceOptions {
   float hole_share = 0.25f;
   /// or more than this area, as it is seen on average from all sides and in all poses; square metres.
   float hole_area = 12.0e-6f;
-  std::uint32_t patch = 6;        ///< so few faces that differ from all around them go with those
-  std::uint32_t samples = 8;      ///< points of a face, in each pose others
+  std::uint32_t patch = 6;    ///< so few faces that differ from all around them go with those
+  std::uint32_t samples = 8;  ///< points of a face, in each pose others
+  std::uint32_t scouts = 0;   ///< where so many points show nothing in a pose, the others are left; 0: never
   std::uint32_t directions = 24;  ///< in which each is looked for, over the hemisphere
   std::uint32_t poses = 12;       ///< of each clip at most, evenly over its time, between key frames too
   unsigned jobs = 0;              ///< threads; 0: one for each core
@@ -34,10 +36,11 @@ struct ViewedPose {
 /// The hole that a face would leave behind.
 struct FaceHole {
   static constexpr std::uint32_t kNoPose = 0xffffffffu;
-  float share = 0.0f;            ///< HiddenFaceOptions::hole_share, of the pose where it is largest
-  float area = 0.0f;             ///< HiddenFaceOptions::hole_area, over the poses looked at
-  std::uint32_t pose = kNoPose;  ///< where the share is largest; kNoPose: there is no hole in any
-  bool is_kept = false;          ///< too large a hole, or a pinhole
+  float share = 0.0f;              ///< HiddenFaceOptions::hole_share, of the pose where it is largest
+  float area = 0.0f;               ///< HiddenFaceOptions::hole_area, over the poses looked at
+  std::uint32_t pose = kNoPose;    ///< where the share is largest; kNoPose: there is no hole in any
+  bool is_kept = false;            ///< too large a hole, a pinhole, or of a bare region
+  bool is_in_bare_region = false;  ///< kept only because clothes hide nothing of its region
   /// Much too large a hole; no further pose was looked at then.
   bool is_plain = false;
 
@@ -46,7 +49,7 @@ struct FaceHole {
 
 struct FaceHoles {
   std::vector<ViewedPose> poses;
-  PerFace<FaceHole> faces;  ///< #F of the template
+  PerFace<FaceHole> faces;  ///< of what was looked at: #F of the template, or of an item's garments
 };
 
 /// Looks at a dressed body in all its clips (in the bind pose, where there are none). From points of every
@@ -58,5 +61,29 @@ struct FaceHoles {
 /// Deterministic, whatever the number of threads.
 FaceHoles findHoles(const TemplateBody& body, std::span<const Item* const> items,
                     const HiddenFaceOptions& options);
+
+/// The same of an item's garments, worn on the body, alone or under another item (design 4): it would be
+/// missed if no cloth of the other lies close under it. Both sides of double-sided cloth are looked at; a
+/// hole is then that of both together.
+/// @return faces are numbered through all parts of all garments
+FaceHoles findHolesOf(const Item& inner, const TemplateBody& body, const HiddenFaceOptions& options);
+/// @param alone what the line above gives: faces that no one sees without the outer item are not looked at
+/// again
+FaceHoles findHolesUnder(const Item& inner, const Item& outer, const TemplateBody& body,
+                         const FaceHoles& alone, const HiddenFaceOptions& options);
+
+/// The holes of a body that wears nothing: looked for once, by the first who asks, from any thread.
+class BareBody {
+ public:
+  /// @param body outlives this
+  BareBody(const TemplateBody& body, const HiddenFaceOptions& options) : body_(body), options_(options) {}
+  const FaceHoles& holes();
+
+ private:
+  const TemplateBody& body_;
+  HiddenFaceOptions options_;
+  std::once_flag looked_;
+  FaceHoles holes_;
+};
 
 }  // namespace ensemble

@@ -76,6 +76,14 @@ std::string itemName(const fs::path& file) {
                     "rename the file: 1 to 100 characters, not beginning with a dot"});
 }
 
+/// What was asked for and does not happen to an outfit that is tagged already.
+void tellAboutTagged(const std::string& file, const TagOptions& options) {
+  if (options.occlusion == Occlusion::kAuthored && options.explain.empty()) return;
+  logWarning(file + ": it is tagged already, so its hidden faces stay as they are" +
+             (options.explain.empty() ? "" : " and --explain has nothing to tell") +
+             "; give the file that it was tagged from");
+}
+
 OutfitFile readOutfit(const fs::path& file, const TaggingTemplate& body, const PipelineOptions& options) {
   OutfitFile outfit;
   const RawAsset raw = readGltf(file);
@@ -83,6 +91,7 @@ OutfitFile readOutfit(const fs::path& file, const TaggingTemplate& body, const P
   if (isTaggedItem(raw)) {
     // Ship as it is, byte for byte: read again with the file's own vertex numbers.
     outfit.bytes = readFile(file);
+    tellAboutTagged(file.string(), options.tag);
     GltfReadOptions as_numbered;
     as_numbered.weld = false;
     item = itemFromAsset(readGlb(outfit.bytes, file.string(), as_numbered), body.body, body.geometry_hash,
@@ -103,8 +112,10 @@ std::vector<OutfitFile> readOutfits(const std::vector<fs::path>& files, const Ta
                                     const PipelineOptions& options) {
   std::vector<OutfitFile> outfits(files.size());
   const unsigned threads = threadCount(options.jobs);
+  BareBody bare(body.body, options.tag.hidden);
   // What threads the outfits leave idle look for hidden faces.
   PipelineOptions options_of_one = options;
+  options_of_one.tag.bare = &bare;
   options_of_one.tag.hidden.jobs =
       std::max(1u, threads / static_cast<unsigned>(std::clamp<std::size_t>(files.size(), 1, threads)));
   std::mutex progress_mutex;

@@ -8,12 +8,12 @@ namespace ensemble {
 namespace {
 
 constexpr float kFar = 100.0f;       // metres: longer than anybody
-constexpr float kNearest = 1.0e-4f;  // metres: what is nearer to a point of the body is the body itself
+constexpr float kNearest = 1.0e-4f;  // metres: what is nearer to a point of the surface is the surface itself
 
 /// What a ray carries for the filters. Rays go one by one, so that N is 1 there.
 struct RayContext : RTCIntersectContext {
-  std::uint32_t own_face = 0xffffffffu;
-  float outward = 1.0f;  ///< 1: goes out to who looks; -1: the way of the look, into the body
+  std::uint32_t own_face = 0xffffffffu;  ///< of the surface
+  float outward = 1.0f;                  ///< 1: goes out to who looks; -1: the way of the look, into the body
 };
 
 /// Which side of what is hit is looked at: more than 0 its outside, less its inside.
@@ -31,10 +31,13 @@ void filterSingleSided(const RTCFilterFunctionNArguments* arguments) {
   if (!(facing(*arguments) > 0.0f)) arguments->valid[0] = 0;
 }
 
-void filterBody(const RTCFilterFunctionNArguments* arguments) {
+/// Of the surface that is looked at: the user data are its faces' kinds.
+void filterSurface(const RTCFilterFunctionNArguments* arguments) {
   const auto& context = *static_cast<const RayContext*>(arguments->context);
-  if (RTCHitN_primID(arguments->hit, 1, 0) == context.own_face) arguments->valid[0] = 0;
-  filterSingleSided(arguments);
+  const std::uint32_t face = RTCHitN_primID(arguments->hit, 1, 0);
+  const FaceKind kind = static_cast<const FaceKind*>(arguments->geometryUserPtr)[face];
+  if (face == context.own_face || !kind.is_opaque) arguments->valid[0] = 0;
+  if (!kind.is_two_sided) filterSingleSided(arguments);
 }
 
 std::vector<Vec3> posed(std::span<const RawVertex> vertices, std::span<const Mat4> matrices) {
@@ -57,10 +60,12 @@ RTCRay makeRay(Vec3 from, Vec3 direction, float most) {
 }  // namespace
 
 struct RayScene::State {
-  RTCScene scene = nullptr;  ///< body and cloth
-  RTCScene cloth = nullptr;
+  RTCScene scene = nullptr;     ///< the surface and what is around it
+  RTCScene cloth = nullptr;     ///< the garments around it
+  std::vector<FaceKind> kinds;  ///< of the surface
 
-  explicit State(RTCDevice device) : scene(rtcNewScene(device)), cloth(rtcNewScene(device)) {}
+  State(RTCDevice device, const ViewedSurface& surface)
+      : scene(rtcNewScene(device)), cloth(rtcNewScene(device)), kinds(surface.kinds) {}
   ~State() {
     rtcReleaseScene(scene);
     rtcReleaseScene(cloth);
@@ -75,6 +80,7 @@ struct RayScene::State {
     const RTCGeometry geometry = device.newTriangles(vertices, faces);
     rtcSetGeometryOccludedFilterFunction(geometry, filter);
     rtcSetGeometryIntersectFilterFunction(geometry, filter);
+    rtcSetGeometryUserData(geometry, kinds.data());  // for filterSurface
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     if (is_cloth) rtcAttachGeometry(cloth, geometry);
@@ -82,11 +88,15 @@ struct RayScene::State {
   }
 };
 
-RayScene::RayScene(const RayDevice& device, const TemplateBody& body, std::span<const Item* const> items,
+RayScene::RayScene(const RayDevice& device, const ViewedSurface& surface, const Around& around,
                    std::span<const Mat4> matrices)
-    : state_(std::make_unique<State>(device.get())), body_(posed(body.vertices.raw(), matrices)) {
-  state_->add(device, body_, body.faces.raw(), filterBody, false);
-  for (const Item* item : items) {
+    : state_(std::make_unique<State>(device.get(), surface)), vertices_(posed(surface.vertices, matrices)) {
+  state_->add(device, vertices_, surface.faces, filterSurface, false);
+  if (around.body != nullptr) {
+    state_->add(device, posed(around.body->vertices.raw(), matrices), around.body->faces.raw(),
+                filterSingleSided, false);
+  }
+  for (const Item* item : around.items) {
     for (const Garment& garment : item->garments) {
       for (const ItemPart& part : garment.parts) {
         const RawMaterial& material = item->materials[part.material];

@@ -5,14 +5,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "assetpipe/explain.h"
 #include "assetpipe/match_faces.h"
 #include "assetpipe/outfit_properties.h"
 #include "assetpipe/segment.h"
+#include "assetpipe/unmatched_parts.h"
 #include "core/box.h"
 #include "core/check.h"
 #include "core/input_error.h"
@@ -76,12 +78,11 @@ class OutfitTagger {
     if (matches_.unmatched > 0) keepUnmatchedFaces();
     if (own_.occlusion != Occlusion::kAuthored) findHiddenFaces();
     applyOverrides();
-    if (holes_ && !options_.explain.empty()) {
-      explainHiddenFaces(options_.explain, body_, item_, authored_, *holes_, options_.hidden);
-    }
+    explain();
     item_.tags = tagRegions(body_, item_.visible, item_.extra_body);
     warnIfComplete();
-    warnOfStrangePlaces();
+    warnIfNothingShows();
+    warnOfFarGarments();
     return std::move(item_);
   }
 
@@ -270,55 +271,22 @@ class OutfitTagger {
                     "they stay as geometry of "
                     "the outfit and their regions count as partial",
                     matches_.unmatched, matches_.template_face.size(), matches_.max_distance * 1000.0f));
-    std::size_t number = 0;
+    std::span<const FaceId> template_face = matches_.template_face;
     for (const BodyPrimitive& part : body_primitives_) {
-      std::map<RegionId, RawPrimitive> extra;
-      std::map<std::pair<RegionId, std::uint32_t>, std::uint32_t>
-          kept_vertices;  // (region, vertex) -> new number
       const RawPrimitive source = withTemplateJoints(*part.primitive);
-      for (const Triangle& face : source.faces) {
-        if (matches_.template_face[number++].valid()) continue;
-        const RegionId region = nearestRegion(source, face);
-        RawPrimitive& target = extra[region];
-        target.material = source.material;
-        Triangle corners{};
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto next = static_cast<std::uint32_t>(target.vertices.size());
-          const auto [entry, is_new] = kept_vertices.try_emplace({region, face[k]}, next);
-          if (is_new) target.vertices.push_back(source.vertices[face[k]]);
-          corners[k] = entry->second;
-        }
-        target.faces.push_back(corners);
-      }
-      for (auto& [region, primitive] : extra) item_.extra_body.push_back({region, std::move(primitive)});
+      std::vector<ExtraBodyPart> extra =
+          unmatchedParts(source, template_face.first(source.faces.size()), body_);
+      std::move(extra.begin(), extra.end(), std::back_inserter(item_.extra_body));
+      template_face = template_face.subspan(source.faces.size());
     }
-  }
-
-  /// The region of the template face whose centre is nearest; few faces ask, so look at all.
-  RegionId nearestRegion(const RawPrimitive& primitive, const Triangle& face) const {
-    const auto centre = [](const auto& vertices, const Triangle& corners) {
-      Vec3 sum(0.0f);
-      for (const std::uint32_t corner : corners) sum += vertices[corner].position;
-      return sum / 3.0f;
-    };
-    const Vec3 here = centre(primitive.vertices, face);
-    RegionId nearest(0);
-    float least = std::numeric_limits<float>::max();
-    for (std::size_t f = 0; f < body_.faces.size(); ++f) {
-      const float distance = glm::distance(here, centre(body_.vertices.raw(), body_.faces[FaceId(f)]));
-      if (distance < least) {
-        least = distance;
-        nearest = body_.region_of_face[FaceId(f)];
-      }
-    }
-    return nearest;
   }
 
   void findHiddenFaces() {
     const Item* worn = &item_;
     authored_ = item_.visible;
     holes_ = findHoles(body_, std::span(&worn, 1), options_.hidden);
-    const FaceHoles bare = findHoles(body_, {}, options_.hidden);
+    BareBody own_bare(body_, options_.hidden);
+    const FaceHoles& bare = (options_.bare != nullptr ? *options_.bare : own_bare).holes();
     for (const Region& region : body_.regions) keepUnclothed(region, bare);
     for (std::size_t f = 0; f < body_.faces.size(); ++f) {
       std::uint8_t& visible = item_.visible[FaceId(f)];
@@ -338,7 +306,9 @@ class OutfitTagger {
       if (is_clothed(f)) return;
     }
     for (std::uint32_t f = 0; f < region.face_count; ++f) {
-      holes_->faces[FaceId(region.first_face + f)].is_kept = true;
+      FaceHole& face = holes_->faces[FaceId(region.first_face + f)];
+      face.is_in_bare_region = !face.is_kept;
+      face.is_kept = true;
     }
   }
 
@@ -355,6 +325,17 @@ class OutfitTagger {
     set(own_.hide, 0);
   }
 
+  void explain() const {
+    if (options_.explain.empty()) return;
+    if (holes_) {
+      explainHiddenFaces(options_.explain, body_, item_, authored_, *holes_, options_.hidden);
+    } else {
+      warnings_.push_back(
+          "--explain has nothing to tell: its author chose the hidden faces, none were looked "
+          "for; ask for --auto-occlusion");
+    }
+  }
+
   void warnIfComplete() const {
     const bool complete =
         std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
@@ -366,11 +347,13 @@ class OutfitTagger {
             : "its clothes hide no face of the body");
   }
 
-  /// Right in itself, but hardly meant.
-  void warnOfStrangePlaces() const {
-    if (item_.visibleBodyFaceCount() == 0) {
-      warnings_.push_back("nothing of the body shows under it; if that is not meant, look at --explain");
-    }
+  /// Right in itself, but hardly meant; as the next.
+  void warnIfNothingShows() const {
+    if (item_.visibleBodyFaceCount() > 0) return;
+    warnings_.push_back("nothing of the body shows under it; if that is not meant, look at --explain");
+  }
+
+  void warnOfFarGarments() const {
     Box body;
     for (const RawVertex& vertex : body_.vertices) body.add(vertex.position);
     for (const Garment& garment : item_.garments) {

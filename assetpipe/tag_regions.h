@@ -19,7 +19,9 @@ struct TagOptions {
   float tolerance = kDefaultTolerance;  ///< metres: how far a corner may be from the template's
   std::string body_node;  ///< take this node alone as the body; empty: whatever has a region's material
   Occlusion occlusion = Occlusion::kAuthored;
-  HiddenFaceOptions hidden;       ///< for kAuto and kBoth
+  HiddenFaceOptions hidden;  ///< for kAuto and kBoth
+  /// Of the same template and options, shared by its outfits; null: looked for anew.
+  BareBody* bare = nullptr;
   std::filesystem::path explain;  ///< folder for what explain.h writes; empty: not wanted
 };
 

@@ -3,6 +3,7 @@
 #include <set>
 #include <system_error>
 
+#include "assetpipe/layer_file.h"
 #include "core/atomic_file.h"
 #include "core/hash.h"
 #include "core/input_error.h"
@@ -95,6 +96,9 @@ void WardrobeWriter::commit(const Manifest& manifest) {
   for (const ManifestOutfit& outfit : manifest.outfits) named.insert(outfit.file);
   clearUnnamedFiles(folder_, named, "");
   clearUnnamedFiles(folder_ / "outfits", named, "outfits/");
+  std::set<std::string> items;
+  for (const ManifestOutfit& outfit : manifest.outfits) items.insert(outfit.sha256.substr(0, kHashDigits));
+  clearLayers(folder_, items, layerKey(manifest.body.sha256, HiddenFaceOptions()));
 }
 
 std::string outfitFileName(const std::string& name, const std::string& sha256) {

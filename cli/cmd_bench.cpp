@@ -97,7 +97,7 @@ void tellOfDifferentInvocations(std::span<const ContestRow> rows) {
 void run(const BenchArguments& arguments) {
   const std::vector<Technique> techniques = parseTechniques(arguments.techniques);
   const Scene scene = loadSceneOf(arguments.scene);
-  const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
+  std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
   const std::optional<EnvironmentMesh> environment = loadEnvironment(scene);
   const std::vector<std::string> counts = parseCounts(arguments.counts, scene);
   Json figures = {
@@ -110,7 +110,9 @@ void run(const BenchArguments& arguments) {
   for (const std::string& count : counts) {
     SceneArguments with_count = arguments.scene;
     with_count.overrides.push_back("crowd.count=" + count);
-    Contest contest(loadSceneOf(with_count), wardrobes, environment ? &*environment : nullptr, techniques,
+    const Scene contested = loadSceneOf(with_count);
+    findLayersOf(contested, wardrobes);
+    Contest contest(contested, wardrobes, environment ? &*environment : nullptr, techniques,
                     arguments.scene.validate);
     for (std::uint32_t round = 0; round < arguments.rounds; ++round) {
       contest.runRound();

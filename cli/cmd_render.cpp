@@ -75,7 +75,8 @@ void run(const RenderArguments& arguments) {
   const std::vector<std::uint32_t> frames = parseFrames(arguments.frames, scene.output.frames);
   const FrameNames names(arguments.output, static_cast<std::uint32_t>(frames.size()));
   checkOutput(arguments, scene, names);
-  const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
+  std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
+  findLayersOf(scene, wardrobes);
   const std::optional<EnvironmentMesh> environment = loadEnvironment(scene);
   Renderer renderer({.validate = arguments.scene.validate});
   renderer.load(scene, wardrobes, environment ? &*environment : nullptr);

@@ -1,6 +1,7 @@
 // `ensemble report`: what tagging saves, of a wardrobe or of what a scene's people wear.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,8 +11,8 @@
 #include "cli/report_page.h"
 #include "cli/scene_run.h"
 #include "core/atomic_file.h"
+#include "core/garment_split.h"
 #include "core/input_error.h"
-#include "renderer/crowd.h"
 
 namespace ensemble::cli {
 namespace {
@@ -28,46 +29,58 @@ std::string folderName(const std::filesystem::path& folder) {
   return std::filesystem::weakly_canonical(folder).filename().string();
 }
 
-/// What one wardrobe's people wear.
-struct Worn {
-  std::vector<Combination> combinations;
-  std::uint64_t people = 0;
-};
+nlohmann::ordered_json toJson(const LayerFigures& layers) {
+  return {{"pairs", layers.pairs},
+          {"garment_faces", layers.garment_faces},
+          {"hidden_garment_faces", layers.hidden_faces},
+          {"drawn_garment_faces", layers.drawn_faces},
+          {"garment_lists", layers.lists}};
+}
 
-std::vector<Worn> wornIn(const Scene& scene, std::span<const Wardrobe> wardrobes) {
-  const Crowd crowd = populateCrowd(scene, wardrobes);
-  std::vector<Worn> worn(wardrobes.size());
-  for (const WornCombination& one : crowd.combinations) worn[one.wardrobe].combinations.push_back(one.items);
-  for (const Character& person : crowd.characters) ++worn[person.wardrobe].people;
-  return worn;
+std::string toText(const LayerFigures& layers) {
+  if (layers.pairs == 0) return "";
+  const double faces = static_cast<double>(std::max<std::uint64_t>(layers.garment_faces, 1));
+  return fmt::format(
+      "{} {} worn over one another; of the garments' faces {:.1f} % are hidden so, and "
+      "{:.1f} % "
+      "are not drawn, in {} lists\n",
+      layers.pairs, layers.pairs == 1 ? "pair of items is" : "pairs of items are",
+      100.0 * static_cast<double>(layers.hidden_faces) / faces,
+      100.0 * static_cast<double>(layers.garment_faces - layers.drawn_faces) / faces, layers.lists);
 }
 
 void runScene(const ReportArguments& arguments) {
   const Scene scene = loadSceneOf({.scene = arguments.wardrobe, .overrides = arguments.overrides});
-  const std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
-  const std::vector<Worn> worn = wornIn(scene, wardrobes);
+  std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
+  findLayersOf(scene, wardrobes);
+  const std::vector<WornCombinations> worn = wornIn(scene, wardrobes);
   nlohmann::ordered_json parts = nlohmann::ordered_json::array();
   CombinationStorage total;
+  LayerFigures layers;
   std::uint64_t people = 0, combinations = 0;
   for (std::size_t w = 0; w < wardrobes.size(); ++w) {
     const CombinationStorage stored = storeCombinations(wardrobes[w], worn[w].combinations);
+    const LayerFigures layers_here = countLayers(wardrobes[w], worn[w].combinations);
     total += stored;
+    layers += layers_here;
     people += worn[w].people;
     combinations += worn[w].combinations.size();
     parts.push_back({{"key", scene.wardrobes[w].key},
                      {"folder", scene.wardrobes[w].folder.string()},
                      {"people", worn[w].people},
                      {"combinations", worn[w].combinations.size()},
-                     {"stored", toJson(stored)}});
+                     {"stored", toJson(stored)},
+                     {"layers", toJson(layers_here)}});
   }
   writeFigures(arguments.common, {{"schema", "ensemble.scene_report/1"},
                                   {"scene", arguments.wardrobe},
                                   {"people", people},
                                   {"combinations", combinations},
                                   {"wardrobes", std::move(parts)},
-                                  {"stored", toJson(total)}});
-  printResult(arguments.common,
-              fmt::format("{} people in {} combinations\n", people, combinations) + toTable(total));
+                                  {"stored", toJson(total)},
+                                  {"layers", toJson(layers)}});
+  printResult(arguments.common, fmt::format("{} people in {} combinations\n", people, combinations) +
+                                    toTable(total) + toText(layers));
 }
 
 /// Options that mean nothing for a scene, or only for one.

@@ -41,7 +41,10 @@ constexpr Manual kManuals[] = {
      "The keys are described in docs/scene.md, too."},
     {"render", "Renders the frames of a scene, on Vulkan and without a window.",
      "SCENE is described in docs/scene.md; paths in it are relative to it. Each picture is written whole or "
-     "not at all. The columns of a crowd table are described in docs/pictures.md."},
+     "not at all. The columns of a crowd table are described in docs/pictures.md. What items hide of one "
+     "another "
+     "is found when people first wear them so, and kept in the wardrobe's folder layers/ (docs/wardrobe.md); "
+     "bench, and report of a scene, do likewise."},
     {"bench",
      "Draws the first frame of a scene with each technique in turn, round by round, and tells frame times, "
      "vertex invocations, triangles, draw calls and bytes, with ratios. Each round begins with another "

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "assetpipe/find_layers.h"
 #include "core/input_error.h"
+#include "core/layers.h"
 #include "core/log.h"
+#include "renderer/crowd.h"
 
 namespace ensemble::cli {
 
@@ -28,6 +33,23 @@ std::vector<Wardrobe> loadWardrobes(const Scene& scene) {
   std::vector<Wardrobe> wardrobes;
   for (const SceneWardrobe& wardrobe : scene.wardrobes) wardrobes.push_back(loadWardrobe(wardrobe.folder));
   return wardrobes;
+}
+
+std::vector<WornCombinations> wornIn(const Scene& scene, std::span<const Wardrobe> wardrobes) {
+  const Crowd crowd = populateCrowd(scene, wardrobes);
+  std::vector<WornCombinations> worn(wardrobes.size());
+  for (const WornCombination& one : crowd.combinations) worn[one.wardrobe].combinations.push_back(one.items);
+  for (const Character& person : crowd.characters) ++worn[person.wardrobe].people;
+  return worn;
+}
+
+void findLayersOf(const Scene& scene, std::span<Wardrobe> wardrobes) {
+  const auto has_pairs = [](const Wardrobe& wardrobe) { return !allLayerPairs(wardrobe).empty(); };
+  if (std::none_of(wardrobes.begin(), wardrobes.end(), has_pairs)) return;  // nobody wears one over another
+  const std::vector<WornCombinations> worn = wornIn(scene, wardrobes);
+  for (std::size_t w = 0; w < wardrobes.size(); ++w) {
+    findLayers(wardrobes[w], layerPairs(wardrobes[w], worn[w].combinations));
+  }
 }
 
 std::optional<EnvironmentMesh> loadEnvironment(const Scene& scene) {

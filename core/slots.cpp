@@ -5,6 +5,8 @@
 namespace ensemble {
 namespace {
 
+bool isOnHead(Slot slot) { return slot == Slot::kHair || slot == Slot::kHead; }
+
 bool isHalf(Slot slot) { return slot == Slot::kUpper || slot == Slot::kLower; }
 
 }  // namespace
@@ -28,6 +30,15 @@ std::string slotNames() {
 
 bool exclude(Slot a, Slot b) {
   return a == b || (a == Slot::kFull && isHalf(b)) || (b == Slot::kFull && isHalf(a));
+}
+
+bool isWornOver(WearPlace outer, WearPlace inner) {
+  if (exclude(outer.slot, inner.slot)) return false;
+  if (isOnHead(outer.slot) || isOnHead(inner.slot)) {
+    return outer.slot == Slot::kHead && inner.slot == Slot::kHair;
+  }
+  if (outer.slot == Slot::kOver || inner.slot == Slot::kOver) return outer.slot == Slot::kOver;
+  return outer.layer > inner.layer;
 }
 
 bool isOptional(Slot slot) { return slot != Slot::kFull && !isHalf(slot); }

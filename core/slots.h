@@ -37,6 +37,16 @@ class PerSlot {
 /// Whether nobody wears items of both: two of one slot, or `full` with `upper` or `lower`.
 bool exclude(Slot a, Slot b);
 
+/// How far out something is worn.
+struct WearPlace {
+  Slot slot = Slot::kFull;
+  int layer = 0;
+};
+/// Whether one item is worn over another, and may hide some of it. `head` goes over `hair`; `over` goes over
+/// `upper`, `lower`, `full` and `feet`; among those four the greater layer goes over the lesser, and of equal
+/// layers neither. Hair and hats neither cover clothes nor are covered by them.
+bool isWornOver(WearPlace outer, WearPlace inner);
+
 /// Whether a dressed person goes without any item of the slot: not without `upper` and `lower`, or `full`.
 bool isOptional(Slot slot);
 

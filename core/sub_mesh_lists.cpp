@@ -12,6 +12,7 @@
 
 #include "core/body_split.h"
 #include "core/check.h"
+#include "core/garment_split.h"
 #include "core/hash.h"
 
 namespace ensemble {
@@ -56,8 +57,9 @@ class ListsBuilder {
     for (const Combination& combination : lists_.combinations) addVisibleFaces(combination);
     orderTemplateFaces();
     const std::size_t count = lists_.combinations.size();
+    hidden_in_ = hiddenSets(wardrobe_, lists_.combinations, &hidden_set_);
     for (std::size_t c = 0; c < count; ++c) {
-      for (const ItemId item : lists_.combinations[c]) showAll(c, garmentsOf(item));
+      for (const ItemId item : lists_.combinations[c]) showGarments(c, item);
     }
     for (std::size_t c = 0; c < count; ++c) {
       for (const ItemId item : lists_.combinations[c]) showAll(c, extraBodyOf(item));
@@ -109,32 +111,75 @@ class ListsBuilder {
     lists_.hidden_set.push_back(entry->second);
   }
 
-  /// The sub-meshes of an item's garments, made when first asked for.
-  const std::vector<SubMeshId>& garmentsOf(ItemId item_id) {
-    const auto [entry, is_new] = garments_of_item_.try_emplace(item_id);
-    if (!is_new) return entry->second;
+  /// tagged and pre-fitted: the pieces that show; naive: all, of which hidden ones cast no shadow.
+  void showGarments(std::size_t combination, ItemId item) {
+    ItemGarments& garments = garments_of_item_[item];
+    if (garments.sub_meshes.empty()) addGarments(item, garments);
+    const std::vector<std::uint8_t>& hidden = garments.split.hidden[hidden_set_[combination].at(item)];
+    std::vector<SubMeshId> shown;
+    for (std::size_t piece = 0; piece < garments.sub_meshes.size(); ++piece) {
+      SubMeshId id = garments.sub_meshes[piece];
+      if (!id.valid()) continue;
+      if (hidden[piece] != 0) {
+        if (lists_.technique != Technique::kNaive) continue;
+        SubMesh covered = lists_.sub_meshes[id];
+        covered.is_covered = true;
+        id = addSubMesh(covered, 0);
+      }
+      shown.push_back(id);
+    }
+    showAll(combination, shown);
+  }
+
+  /// What is drawn of an item's garments.
+  struct ItemGarments {
+    GarmentSplit split;                 ///< by what all combinations hide of it
+    std::vector<SubMeshId> sub_meshes;  ///< per piece
+  };
+
+  void addGarments(ItemId item_id, ItemGarments& garments) {
     const Item& item = wardrobe_.items[item_id];
+    garments.split = splitGarments(item, hidden_in_.at(item_id).sets);
+    garments.sub_meshes.resize(garments.split.piece_count);
+    std::span<const std::uint32_t> piece_of_face = garments.split.piece_of_face;
     for (const Garment& garment : item.garments) {
       std::uint32_t face_offset = 0;
       for (const ItemPart& part : garment.parts) {
-        if (!part.faces.empty()) {
-          const std::uint32_t material = addMaterial(item.materials[part.material], item.images, false);
-          const std::span<const Garment> alike =
-              item.slot == Slot::kFull ? std::span(&garment, 1) : std::span(item.garments);
-          const SubMesh sub_mesh{SubMeshKind::kGarment,
-                                 addPart(part),
-                                 material,
-                                 addGarmentName(garment.name),
-                                 face_offset,
-                                 item.slot,
-                                 mainMaterial(item, alike),
-                                 garment.parts.size() > 1};
-          entry->second.push_back(addSubMesh(sub_mesh, 0));
-        }
+        if (part.faces.empty()) continue;
+        const std::uint32_t material = addMaterial(item.materials[part.material], item.images, false);
+        const std::span<const Garment> alike =
+            item.slot == Slot::kFull ? std::span(&garment, 1) : std::span(item.garments);
+        const SubMesh sub_mesh{SubMeshKind::kGarment,
+                               {},
+                               material,
+                               addGarmentName(garment.name),
+                               face_offset,
+                               item.slot,
+                               mainMaterial(item, alike),
+                               garment.parts.size() > 1};
+        addPieces(part, piece_of_face.first(part.faces.size()), sub_mesh, garments.sub_meshes);
+        piece_of_face = piece_of_face.subspan(part.faces.size());
         face_offset += static_cast<std::uint32_t>(part.faces.size());
       }
     }
-    return entry->second;
+  }
+
+  /// The pieces of a part, as lists into one mesh, each a subsequence of the part's order.
+  void addPieces(const ItemPart& part, std::span<const std::uint32_t> piece_of_face, SubMesh sub_mesh,
+                 std::vector<SubMeshId>& sub_meshes) {
+    const IndexList whole = partList(part);
+    std::map<std::uint32_t, IndexList> lists;
+    for (std::size_t i = 0; i < whole.source_faces.size(); ++i) {
+      IndexList& list = lists[piece_of_face[whole.source_faces[i]]];
+      list.mesh = whole.mesh;
+      const auto corners = whole.indices.begin() + static_cast<std::ptrdiff_t>(3 * i);
+      list.indices.insert(list.indices.end(), corners, corners + 3);
+      list.source_faces.push_back(whole.source_faces[i]);
+    }
+    for (auto& [piece, list] : lists) {
+      sub_mesh.list = addList(std::move(list));
+      sub_meshes[piece] = addSubMesh(sub_mesh, 0);
+    }
   }
 
   /// The material of most faces of some of an item's garments.
@@ -156,7 +201,7 @@ class ListsBuilder {
     auto face_offset = static_cast<std::uint32_t>(body_.faces.size());
     for (const ExtraBodyPart& extra : item.extra_body) {
       if (extra.part.faces.empty()) continue;
-      const SubMesh sub_mesh{SubMeshKind::kBody, addPart(extra.part),
+      const SubMesh sub_mesh{SubMeshKind::kBody, addList(partList(extra.part)),
                              addMaterial(item.materials[extra.part.material], item.images, true),
                              extra.region.value, face_offset};
       entry->second.push_back(addSubMesh(sub_mesh, 1));
@@ -166,12 +211,12 @@ class ListsBuilder {
   }
 
   /// A part of an item becomes a mesh of its own, in vertex-cache order, renumbered by first use.
-  IndexListId addPart(const ItemPart& part) {
+  IndexList partList(const ItemPart& part) {
     IndexList list;
     list.source_faces = vertexCacheOrder(part.faces, part.vertices.size());
     Mesh mesh = takeVertices(part.vertices, part.faces, list.source_faces, list.indices);
     list.mesh = addMesh(std::move(mesh), list.indices);
-    return addList(std::move(list));
+    return list;
   }
 
   /// The vertices that some faces use, in order of first use, and the faces' indices into them.
@@ -314,14 +359,15 @@ class ListsBuilder {
 
   /// `rank` is its place in the order of drawing, the same in all techniques.
   SubMeshId addSubMesh(const SubMesh& sub_mesh, std::uint32_t rank) {
-    const std::array<std::uint32_t, 8> key{sub_mesh.list.value,
+    const std::array<std::uint32_t, 9> key{sub_mesh.list.value,
                                            sub_mesh.material,
                                            sub_mesh.region,
                                            sub_mesh.source_face_offset,
                                            static_cast<std::uint32_t>(sub_mesh.kind),
                                            static_cast<std::uint32_t>(sub_mesh.slot),
                                            sub_mesh.main_material,
-                                           sub_mesh.has_trimmings ? 1u : 0u};
+                                           sub_mesh.has_trimmings ? 1u : 0u,
+                                           sub_mesh.is_covered ? 1u : 0u};
     const auto [entry, is_new] = sub_mesh_by_content_.try_emplace(key, SubMeshId(lists_.sub_meshes.size()));
     if (is_new) {
       lists_.sub_meshes.push(sub_mesh);
@@ -361,12 +407,15 @@ class ListsBuilder {
   std::vector<VisibleFaces> visible_;  ///< distinct, as lists_.hidden_sets
   std::map<std::vector<std::uint32_t>, std::uint32_t> set_by_content_;
   std::vector<std::vector<SubMeshId>> body_sub_meshes_;  ///< per set of visible_
-  std::map<ItemId, std::vector<SubMeshId>> garments_of_item_, extra_of_item_;
+  std::map<ItemId, ItemGarments> garments_of_item_;
+  std::map<ItemId, ItemSets> hidden_in_;
+  std::vector<std::map<ItemId, std::size_t>> hidden_set_;  ///< per combination: index into an item's sets
+  std::map<ItemId, std::vector<SubMeshId>> extra_of_item_;
   std::vector<std::uint32_t> rank_;  ///< per sub-mesh, before sorting
   std::map<std::string, MeshId> mesh_by_content_;
   std::map<std::string, IndexListId> list_by_content_;
   std::map<std::string, std::uint32_t> image_by_content_;
-  std::map<std::array<std::uint32_t, 8>, SubMeshId> sub_mesh_by_content_;
+  std::map<std::array<std::uint32_t, 9>, SubMeshId> sub_mesh_by_content_;
 };
 
 constexpr const char* kTechniqueNames[] = {"naive", "prefitted", "tagged"};

@@ -57,6 +57,8 @@ struct SubMesh {
   /// body `material`.
   std::uint32_t main_material = 0;
   bool has_trimmings = false;  ///< kGarment: its garment has several materials
+  /// kGarment, naive: a piece that is hidden where it is shown so; it casts no shadow.
+  bool is_covered = false;
 };
 
 /// A material and where it came from.
@@ -86,8 +88,9 @@ struct SubMeshLists {
 
 /// Builds the lists for some combinations of a wardrobe. Deterministic; equal geometry and equal visible
 /// sets are stored once. The visible faces of a combination are those that every one of its items leaves
-/// visible. Faces of a body keep one relative order in every list of every technique (a subsequence of the
-/// template's vertex-cache order), so that equal depths resolve alike and pictures are the same.
+/// visible; what is left of an item's garments follows from Wardrobe::hidden_under. Faces of a body keep one
+/// relative order in every list of every technique (a subsequence of the template's vertex-cache order), so
+/// that equal depths resolve alike and pictures are the same.
 /// @pre combinations are valid and distinct.
 SubMeshLists buildSubMeshLists(const Wardrobe& wardrobe, std::span<const Combination> combinations,
                                Technique technique);

@@ -74,6 +74,7 @@ Wardrobe loadOnce(const std::filesystem::path& folder, const std::string& manife
     }
     wardrobe.items.push(std::move(item));
     wardrobe.item_files.push(entry.file);
+    wardrobe.item_sha256.push(entry.sha256);
   }
   return wardrobe;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -96,13 +97,26 @@ void forEachVertex(const Item& item, const Take& take) {
   }
 }
 
+/// Two items that are worn together, one over the other (isWornOver).
+struct ItemPair {
+  ItemId inner, outer;
+  auto operator<=>(const ItemPair&) const = default;
+};
+
+/// Faces of an item's garments, numbered through all parts of all garments: 1 where hidden, else 0.
+using HiddenGarmentFaces = std::vector<std::uint8_t>;
+
 struct Wardrobe {
   std::filesystem::path folder;
   std::string template_file;                   ///< relative to folder
   std::string template_sha256, geometry_hash;  ///< hex
   TemplateBody body;
-  PerItem<Item> items;              ///< in the manifest's order
-  PerItem<std::string> item_files;  ///< relative to folder
+  PerItem<Item> items;               ///< in the manifest's order
+  PerItem<std::string> item_files;   ///< relative to folder
+  PerItem<std::string> item_sha256;  ///< hex, of the files; empty where there are none
+  /// What the outer item of a pair hides of the inner one (design 4); a pair that is not here hides nothing.
+  /// Loading leaves it empty: found where people wear such pairs (assetpipe/find_layers.h).
+  std::map<ItemPair, HiddenGarmentFaces> hidden_under;
 };
 
 /// Loads a wardrobe folder: manifest checked against its JSON Schema, every file against its

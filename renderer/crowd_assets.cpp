@@ -240,14 +240,15 @@ class CrowdAssets::Builder {
       const PlacedList placed = placeList(w, sub_mesh.list);
       const bool is_body = kind == SubMeshKind::kBody;
       DrawItem item;
-      item.state = {.is_body = is_body,
-                    .double_sided = material.double_sided,
-                    .textured = material.image.has_value(),
-                    .cut_out = material.alpha_mode == AlphaMode::kMask,
-                    .hides_faces = from.technique == Technique::kNaive && list.is_template,
-                    .texture_set = textureSet(w, material),
-                    .index_chunk = placed.index_chunk,
-                    .vertex_chunk = placed.vertex_chunk};
+      item.state = {
+          .is_body = is_body,
+          .double_sided = material.double_sided,
+          .textured = material.image.has_value(),
+          .cut_out = material.alpha_mode == AlphaMode::kMask,
+          .hides_faces = sub_mesh.is_covered || (from.technique == Technique::kNaive && list.is_template),
+          .texture_set = textureSet(w, material),
+          .index_chunk = placed.index_chunk,
+          .vertex_chunk = placed.vertex_chunk};
       item.first_index = placed.first_index;
       item.index_count = static_cast<std::uint32_t>(list.indices.size());
       item.vertex_offset = placed.vertex_offset;
@@ -256,7 +257,8 @@ class CrowdAssets::Builder {
       item.gpu = {.material = addMaterial(w, sub_mesh),
                   .region = first_number + sub_mesh.region,
                   .first_face = placed.first_face,
-                  .face_offset = sub_mesh.source_face_offset};
+                  .face_offset = sub_mesh.source_face_offset,
+                  .is_covered = sub_mesh.is_covered ? 1u : 0u};
       assets_.items_.push_back(item);
       origins_.emplace_back(w, s);
     }

@@ -1,5 +1,5 @@
 // Leaves out of the shadow what casts none: what an alpha mask cuts out, and, where the naive
-// technique draws the whole body, the faces that the clothes hide. Naive pays for their vertices
+// technique draws the whole body and whole clothes, the faces that clothes hide. Naive pays for their vertices
 // and triangles as everywhere; but their shadow could fall through a gap of the clothes, and the
 // techniques are to differ in no pixel but those that show a hidden face.
 #version 460
@@ -14,6 +14,7 @@ layout(location = 1) flat in uvec2 who;
 void main() {
   GpuDraw draw_data = draws[who.y];
   if (kHideFaces) {
+    if (draw_data.is_covered != 0u) discard;
     uint face = sourceFace(draw_data);
     uint word = hidden_words[hidden_first[characters[who.x].combination] + (face >> 5)];
     if ((word >> (face & 31u) & 1u) != 0u) discard;

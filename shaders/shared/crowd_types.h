@@ -118,6 +118,7 @@ struct GpuDraw {
   uint region;       ///< AOV number, 1 and up
   uint first_face;   ///< into the source faces of its mesh chunk
   uint face_offset;  ///< added to what stands there
+  uint is_covered;   ///< 1: hidden, and drawn by naive all the same; it casts no shadow
 };
 
 struct GpuMaterial {
@@ -165,7 +166,7 @@ static_assert(sizeof(GpuCharacter) == 128 && offsetof(GpuCharacter, clip) == 48 
 static_assert(sizeof(GpuLegs) == 128 && offsetof(GpuLegs, joints) == 96 &&
               offsetof(GpuLegs, first_group) == 120);
 static_assert(sizeof(GpuClip) == 16 && offsetof(GpuClip, joint_count) == 8);
-static_assert(sizeof(GpuDraw) == 16 && offsetof(GpuDraw, face_offset) == 12);
+static_assert(sizeof(GpuDraw) == 20 && offsetof(GpuDraw, is_covered) == 16);
 static_assert(sizeof(GpuMaterial) == 64 && offsetof(GpuMaterial, tint) == 16 &&
               offsetof(GpuMaterial, tint_first) == 32 && offsetof(GpuMaterial, texture_layer) == 44 &&
               offsetof(GpuMaterial, alpha_cutoff) == 48 && offsetof(GpuMaterial, sheen) == 56);

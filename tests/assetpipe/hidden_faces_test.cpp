@@ -190,9 +190,9 @@ TEST(RayScene, TellsWhatStandsInTheWay) {
   const std::vector<Mat4> rest = skinningMatrices(body.skeleton, restPose(body.skeleton));
   const Item item = sleeve(0.195f, 0.6f, 1.2f);
   const Item* worn = &item;
-  const RayScene scene(device, body, std::span(&worn, 1), rest);
+  const RayScene scene(device, surfaceOf(body), {.body = nullptr, .items = std::span(&worn, 1)}, rest);
   const Triangle& corners = body.faces[FaceId(100)];
-  Vec3 a = scene.body()[corners[0]], b = scene.body()[corners[1]], c = scene.body()[corners[2]];
+  Vec3 a = scene.vertices()[corners[0]], b = scene.vertices()[corners[1]], c = scene.vertices()[corners[2]];
   const Vec3 normal = glm::normalize(glm::cross(b - a, c - a)), middle = (a + b + c) / 3.0f;
   EXPECT_TRUE(scene.isSeen(middle, normal, 100));
   EXPECT_FALSE(scene.isSeen(middle, -normal, 100)) << "the far side of body and cloth";
@@ -200,7 +200,7 @@ TEST(RayScene, TellsWhatStandsInTheWay) {
   EXPECT_FALSE(scene.hasClothUnder(middle, normal, 0.004f));
   EXPECT_FALSE(scene.hasClothUnder(middle, normal, 0.0f));
   EXPECT_FALSE(scene.hasClothUnder(middle, -normal, 0.5f)) << "one looks into the far side of the sleeve";
-  const RayScene bare(device, body, {}, rest);
+  const RayScene bare(device, surfaceOf(body), {}, rest);
   EXPECT_FALSE(bare.hasClothUnder(middle, normal, 1.0f));
   EXPECT_FALSE(bare.isSeen(middle, -normal, 100)) << "the far side of the body, seen from outside";
 }

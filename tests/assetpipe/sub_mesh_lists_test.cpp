@@ -81,6 +81,38 @@ TEST(SubMeshLists, TechniquesDifferInHiddenBodyFacesOnly) {
   }
 }
 
+// Under another item garments lose faces, in tagged and pre-fitted; each face is stored once all the same.
+TEST(SubMeshLists, TechniquesDifferInHiddenGarmentFacesOnly) {
+  Wardrobe wardrobe = tubeWardrobe();
+  const std::vector<Combination> combinations = {{ItemId(0)}, {ItemId(0), ItemId(1)}, {ItemId(0), ItemId(3)}};
+  const std::uint64_t whole = buildSubMeshLists(wardrobe, combinations, Technique::kNaive).meshBytes();
+  HiddenGarmentFaces under_hood(80, 0), under_wide(80, 0);
+  std::fill_n(under_hood.begin(), 30, std::uint8_t{1});
+  std::fill_n(under_wide.begin() + 20, 60, std::uint8_t{1});
+  wardrobe.hidden_under[{ItemId(0), ItemId(1)}] = under_hood;
+  wardrobe.hidden_under[{ItemId(0), ItemId(3)}] = under_wide;
+  const SubMeshLists naive = buildSubMeshLists(wardrobe, combinations, Technique::kNaive);
+  const SubMeshLists prefitted = buildSubMeshLists(wardrobe, combinations, Technique::kPrefitted);
+  const SubMeshLists tagged = buildSubMeshLists(wardrobe, combinations, Technique::kTagged);
+  EXPECT_EQ(naive.meshBytes(), whole + 80 * 6) << "the tunic in pieces, and whole, as it is the hood's, too";
+  EXPECT_EQ(tagged.meshes.size(), naive.meshes.size());
+  const std::size_t hidden[] = {0, 30, 60};
+  for (std::size_t c = 0; c < combinations.size(); ++c) {
+    const auto all = drawnFaces(naive, c, SubMeshKind::kGarment),
+               left = drawnFaces(tagged, c, SubMeshKind::kGarment);
+    EXPECT_EQ(left, drawnFaces(prefitted, c, SubMeshKind::kGarment)) << c;
+    EXPECT_EQ(left.size() + hidden[c], all.size()) << c;
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), left.begin(), left.end())) << c;
+    std::size_t covered = 0;
+    for (const SubMeshId id : naive.shown[c]) {
+      const SubMesh& sub_mesh = naive.sub_meshes[id];
+      covered += sub_mesh.is_covered ? naive.index_lists[sub_mesh.list].source_faces.size() : 0;
+    }
+    EXPECT_EQ(covered, hidden[c]) << "cast no shadow";
+    for (const SubMeshId id : tagged.shown[c]) EXPECT_FALSE(tagged.sub_meshes[id].is_covered);
+  }
+}
+
 TEST(SubMeshLists, StoreEqualContentOnce) {
   const Wardrobe wardrobe = tubeWardrobe();
   const auto combinations = eachItem(wardrobe);

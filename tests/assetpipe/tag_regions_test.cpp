@@ -3,9 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "assetpipe/segment.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/small_people.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ensemble {
 namespace {
@@ -232,23 +237,24 @@ TEST(TagRegions, AnItemMayAskForAKindOfOcclusion) {
                      "authored, auto or both");
 }
 
-// A face inside the legs, which no one sees with or without clothes.
-TEST(TagRegions, WhatTheBodyItselfHidesLeavesItsRegionWhole) {
-  const auto withInnerFace = [](RawAsset asset) {
-    for (RawMeshNode& node : asset.meshes) {
-      for (RawPrimitive& primitive : node.primitives) {
-        if (asset.materials[primitive.material].name != "legs") continue;
-        const auto first = static_cast<std::uint32_t>(primitive.vertices.size());
-        for (const float x : {-0.01f, 0.0f, 0.01f}) {
-          RawVertex vertex = primitive.vertices[0];
-          vertex.position = Vec3(x, x == 0.0f ? 0.32f : 0.3f, 0.0f);
-          primitive.vertices.push_back(vertex);
-        }
-        primitive.faces.push_back({first, first + 1, first + 2});
+/// With a face inside the legs, which no one sees with or without clothes.
+RawAsset withInnerFace(RawAsset asset) {
+  for (RawMeshNode& node : asset.meshes) {
+    for (RawPrimitive& primitive : node.primitives) {
+      if (asset.materials[primitive.material].name != "legs") continue;
+      const auto first = static_cast<std::uint32_t>(primitive.vertices.size());
+      for (const float x : {-0.01f, 0.0f, 0.01f}) {
+        RawVertex vertex = primitive.vertices[0];
+        vertex.position = Vec3(x, x == 0.0f ? 0.32f : 0.3f, 0.0f);
+        primitive.vertices.push_back(vertex);
       }
+      primitive.faces.push_back({first, first + 1, first + 2});
     }
-    return asset;
-  };
+  }
+  return asset;
+}
+
+TEST(TagRegions, WhatTheBodyItselfHidesLeavesItsRegionWhole) {
   std::vector<std::string> warnings;
   const TemplateBody body = segmentTemplate(withInnerFace(testing::tubeTemplate()), {}, "tube.glb", warnings);
   TagOptions rays;
@@ -258,9 +264,41 @@ TEST(TagRegions, WhatTheBodyItselfHidesLeavesItsRegionWhole) {
   EXPECT_EQ(item.tags[RegionId(0)].visibility, Visibility::kFull);
   EXPECT_EQ(item.tags[RegionId(0)].visible_faces, 65u);
   EXPECT_NE(item.tags[RegionId(1)].visibility, Visibility::kFull);
-  const FaceHoles bare = findHoles(body, {}, {});
-  EXPECT_EQ(std::count_if(bare.faces.begin(), bare.faces.end(), [](const FaceHole& f) { return !f.is_kept; }),
-            1);
+  BareBody bare(body, {});
+  const FaceHoles& holes = bare.holes();
+  EXPECT_EQ(&holes, &bare.holes());
+  EXPECT_EQ(
+      std::count_if(holes.faces.begin(), holes.faces.end(), [](const FaceHole& f) { return !f.is_kept; }), 1);
+  rays.bare = &bare;
+  EXPECT_EQ(tagOutfit(outfit, body, rays, "tunic", "tunic.glb", warnings).visible, item.visible);
+}
+
+TEST(TagRegions, ExplainNamesWhatABareRegionKeeps) {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  const RawAsset asset = withInnerFace(testing::tubeTemplate());
+  const TemplateBody body = segmentTemplate(asset, {}, "template.glb", warnings);
+  TagOptions rays;
+  rays.occlusion = Occlusion::kAuto;
+  rays.explain = folder / "why";
+  tagOutfit(withInnerFace(testing::tubeOutfit([](int, int) { return true; }, 0.203f)), body, rays, "tunic",
+            "tunic.glb", warnings);
+  std::ifstream file(folder / "why" / "tunic.json");
+  const auto why = nlohmann::json::parse(file);
+  EXPECT_EQ(why["regions"][0]["kept"], 65);
+  int bare = 0;
+  for (const auto& face : why["regions"][0]["faces"]) bare += face["verdict"] == "bare region" ? 1 : 0;
+  EXPECT_EQ(bare, 1);
+}
+
+TEST(TagRegions, ExplainSaysWhereItHasNothingToTell) {
+  std::vector<std::string> warnings;
+  TagOptions authored;
+  authored.explain = "why";
+  tag(halfDressed(), &warnings, authored);
+  EXPECT_THAT(warnings,
+              ::testing::ElementsAre("--explain has nothing to tell: its author chose the hidden faces, none "
+                                     "were looked for; ask for --auto-occlusion"));
 }
 
 TEST(TagRegions, WarnsOfWhatIsHardlyMeant) {

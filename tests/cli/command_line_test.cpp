@@ -120,6 +120,22 @@ TEST_F(CommandLine, ExplainTellsWhyFacesAreKept) {
   EXPECT_EQ(run("tag template.glb tunic.glb -o w -q --auto-occlusion --explain /dev/null/why").exit_code, 1);
 }
 
+TEST_F(CommandLine, WhatIsTaggedAlreadyStaysAsItIsAndIsTold) {
+  ASSERT_EQ(run("tag template.glb tunic.glb -o w -q").exit_code, 0);
+  std::filesystem::path tagged;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "w" / "outfits"))
+    tagged = entry.path();
+  const auto tag = [&](const std::string& options) {
+    return run("tag template.glb w/outfits/" + tagged.filename().string() + " -o w2" + options).err;
+  };
+  const std::string begin = "ensemble: warning: w/outfits/" + tagged.filename().string() +
+                            ": it is tagged already, so its hidden faces stay as they are";
+  EXPECT_EQ(tag(""), "");
+  EXPECT_EQ(tag(" --auto-occlusion"), begin + "; give the file that it was tagged from\n");
+  EXPECT_EQ(tag(" --auto-occlusion --explain why"),
+            begin + " and --explain has nothing to tell; give the file that it was tagged from\n");
+}
+
 TEST_F(CommandLine, InvalidInputIsThree) {
   const std::vector<std::pair<const char*, const char*>> cases = {
       {"tag none.glb -o w", "ensemble: none.glb: no such file; check the path\n"},

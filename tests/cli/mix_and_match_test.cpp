@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
@@ -31,6 +32,7 @@ class MixAndMatch : public ::testing::Test {
   template <class Keep>
   void writeItem(const std::string& name, const std::string& slot, float radius, const Keep& keep) {
     RawAsset item = testing::tubeOutfit(keep, radius);
+    item.materials.back().double_sided = false;  // else one sees its inside through the tube's open ends
     item.scene_extras_json = R"({"ensemble": {"slot": ")" + slot + R"("}})";
     writeFileAtomically(folder_ / (name + ".glb"), writeGlb(item));
   }
@@ -71,6 +73,44 @@ TEST_F(MixAndMatch, TheReportCountsCombinations) {
                 combinations["stored"]["lower_bound_bytes"].get<int>(),
             6 * (32 + 10 + 20 + 12));
   EXPECT_EQ(combinations["stored"]["lower_bound_bytes"], report["lower_bound_bytes"]);
+}
+
+TEST_F(MixAndMatch, WhatItemsHideOfOneAnotherIsFoundOnceAndKept) {
+  writeItem("jacket", "over", 0.232f, [](int, int) { return true; });
+  ASSERT_EQ(run("tag template.glb tshirt.glb jeans.glb jacket.glb -o w").exit_code, 0);
+  write("layers.yaml", "people: [{wears: [tshirt, jeans]}, {wears: [tshirt, jeans, jacket]}]\n");
+  const auto report = [&] { return run("report layers.yaml --json report.json"); };
+  const ProgramResult first = report();
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("\n1 pair of items is worn over one another; of the garments' faces "));
+  const nlohmann::json layers = nlohmann::json::parse(bytes("report.json"))["layers"];
+  EXPECT_EQ(layers["pairs"], 1) << "the jeans stand off";
+  EXPECT_EQ(layers["garment_faces"], 5 * 80);
+  EXPECT_GT(layers["hidden_garment_faces"], 0);
+  EXPECT_LE(layers["hidden_garment_faces"], 80);
+  const auto files = [&] {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "w" / "layers"))
+      found.push_back(entry);
+    return found;
+  };
+  EXPECT_EQ(files().size(), 2u);
+  EXPECT_EQ(report().out, first.out);
+  EXPECT_EQ(run("render layers.yaml -o a.png").err, "");
+  // What can't be kept is found all the same.
+  std::filesystem::remove_all(folder_ / "w" / "layers");
+  write("w/layers", "");
+  const ProgramResult unkept = report();
+  EXPECT_EQ(unkept.exit_code, 0);
+  EXPECT_EQ(unkept.out, first.out);
+  EXPECT_EQ(unkept.err,
+            "ensemble: warning: w: what items hide of one another can't be kept here and is found anew each "
+            "time (w/layers: can't be written: File exists; choose another place)\n");
+  std::filesystem::remove(folder_ / "w" / "layers");
+  report();
+  EXPECT_EQ(files().size(), 2u);
+  EXPECT_EQ(run("remove w jacket").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "w" / "layers"));
 }
 
 TEST_F(MixAndMatch, TheReportOfASceneCountsWhatIsWorn) {

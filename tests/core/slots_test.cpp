@@ -23,6 +23,29 @@ TEST(Slots, ExcludeThemselvesAndFullTheHalves) {
   }
 }
 
+TEST(Slots, WhatIsWornOverWhat) {
+  const auto over = [](Slot outer, int outer_layer, Slot inner, int inner_layer) {
+    return isWornOver({outer, outer_layer}, {inner, inner_layer});
+  };
+  EXPECT_TRUE(over(Slot::kHead, 0, Slot::kHair, 9)) << "whatever the layers";
+  EXPECT_FALSE(over(Slot::kHair, 9, Slot::kHead, 0));
+  EXPECT_TRUE(over(Slot::kOver, 0, Slot::kUpper, 9));
+  EXPECT_TRUE(over(Slot::kUpper, 20, Slot::kLower, 10));
+  EXPECT_FALSE(over(Slot::kLower, 10, Slot::kUpper, 20));
+  EXPECT_TRUE(over(Slot::kFeet, 16, Slot::kLower, 10));
+  EXPECT_TRUE(over(Slot::kFull, 17, Slot::kFeet, 16));
+  EXPECT_FALSE(over(Slot::kUpper, 5, Slot::kLower, 5)) << "equal layers";
+  EXPECT_FALSE(over(Slot::kOver, 9, Slot::kHair, 0)) << "hair hangs over a coat, or into it";
+  EXPECT_FALSE(over(Slot::kFull, 9, Slot::kUpper, 0)) << "nobody wears both";
+  for (const Slot a : kAllSlots) {
+    for (const Slot b : kAllSlots) {
+      for (const int layer : {0, 1}) {
+        EXPECT_FALSE(over(a, layer, b, 0) && over(b, 0, a, layer)) << toString(a) << " " << toString(b);
+      }
+    }
+  }
+}
+
 /// Goes through all combinations, as the count must not.
 std::uint64_t listed(const PerSlot<std::uint64_t>& items) {
   std::uint64_t count = 0;

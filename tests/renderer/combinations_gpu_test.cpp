@@ -89,6 +89,54 @@ TEST_P(NaiveCombinations, DifferOnlyWhereAHiddenFaceShows) {
   EXPECT_GT(differing, 20u);
 }
 
+/// Tunic and patch under the net, and the patch under the tunic, which hide some of their faces.
+class LayeredCombinations : public Combinations {
+ protected:
+  void SetUp() override {
+    Combinations::SetUp();
+    if (IsSkipped()) return;
+    wardrobes_[0].items[ItemId(2)].extra_body.clear();  // Their faces have numbers of their own.
+    hide(0, 1, [](std::size_t face) { return face % 3 == 0; });
+    hide(2, 1, [](std::size_t face) { return face < 40; });
+    hide(2, 0, [](std::size_t face) { return face >= 30 && face < 60; });
+  }
+  template <class Hides>
+  void hide(std::size_t inner, std::size_t outer, const Hides& hides) {
+    HiddenGarmentFaces hidden(wardrobes_[0].items[ItemId(inner)].garmentFaceCount());
+    for (std::size_t face = 0; face < hidden.size(); ++face) hidden[face] = hides(face) ? 1 : 0;
+    wardrobes_[0].hidden_under[{ItemId(inner), ItemId(outer)}] = hidden;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Samples, LayeredCombinations, ::testing::Values(1u));
+
+// With shadows: hidden garments cast none in naive either.
+TEST_P(LayeredCombinations, TechniquesDifferOnlyWhereAHiddenFaceShows) {
+  const auto naive_renderer = makeRenderer(scene(Technique::kNaive));
+  const auto tagged_renderer = makeRenderer(scene(Technique::kTagged));
+  const auto prefitted_renderer = makeRenderer(scene(Technique::kPrefitted));
+  const auto naive = drawAll(*naive_renderer, scene(Technique::kNaive), true);
+  const auto tagged = drawAll(*tagged_renderer, scene(Technique::kTagged), true);
+  const auto prefitted = drawAll(*prefitted_renderer, scene(Technique::kPrefitted), true);
+  std::size_t hidden_garments = 0;
+  for (std::size_t i = 0; i < naive.size(); ++i) {
+    EXPECT_EQ(tagged[i].color.rgba, prefitted[i].color.rgba) << i;
+    EXPECT_EQ(tagged[i].face, prefitted[i].face) << i;
+    EXPECT_EQ(tagged[i].depth, prefitted[i].depth) << i;
+    EXPECT_EQ(tagged[i].stats.triangles(), prefitted[i].stats.triangles()) << i;
+    EXPECT_LT(tagged[i].stats.triangles(), naive[i].stats.triangles()) << i;
+    for (const std::size_t pixel : testing::differingPixels(tagged[i].color, naive[i].color)) {
+      const bool is_garment = testing::showsHiddenGarment(naive[i], pixel, *naive_renderer, wardrobes_);
+      EXPECT_TRUE(is_garment || testing::showsHiddenFace(naive[i], pixel, *naive_renderer, wardrobes_))
+          << i << " " << pixel;
+      hidden_garments += is_garment ? 1 : 0;
+    }
+    for (std::size_t pixel = 0; pixel < tagged[i].face.size(); ++pixel) {
+      EXPECT_FALSE(testing::showsHiddenGarment(tagged[i], pixel, *tagged_renderer, wardrobes_));
+    }
+  }
+  EXPECT_GT(hidden_garments, 50u);
+}
+
 class ItemColours : public GpuTest {
  protected:
   /// A shirt and trousers of one garment name and material, in two items of these slots, worn together.

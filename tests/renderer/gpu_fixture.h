@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/layers.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/test_wardrobe.h"
+#include "tests/support/garment_pixels.h"
 
 namespace ensemble::testing {
 
@@ -95,6 +97,17 @@ inline bool showsHiddenFace(const Picture& aovs, std::size_t pixel, const Render
     if (wardrobe.items[item].visible[face] == 0) return true;
   }
   return false;
+}
+
+/// Whether a pixel of an AOV picture shows a garment's face that another item of its person hides.
+inline bool showsHiddenGarment(const Picture& aovs, std::size_t pixel, const Renderer& renderer,
+                               std::span<const Wardrobe> wardrobes) {
+  const std::optional<GarmentPixel> shown = garmentAt(aovs, pixel, renderer, wardrobes);
+  if (!shown) return false;
+  const Character& person = renderer.crowd().characters[aovs.character[pixel] - 1];
+  const Combination& worn = renderer.crowd().combinations[person.combination].items;
+  const HiddenGarmentFaces hidden = hiddenInCombination(wardrobes[person.wardrobe], worn, shown->item);
+  return !hidden.empty() && hidden[shown->face] != 0;
 }
 
 }  // namespace ensemble::testing

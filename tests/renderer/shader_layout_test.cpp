@@ -88,6 +88,7 @@ TEST(ShaderLayout, DrawsAndMaterials) {
   EXPECT_EQ(draw.at("region"), offsetof(GpuDraw, region));
   EXPECT_EQ(draw.at("first_face"), offsetof(GpuDraw, first_face));
   EXPECT_EQ(draw.at("face_offset"), offsetof(GpuDraw, face_offset));
+  EXPECT_EQ(draw.at("is_covered"), offsetof(GpuDraw, is_covered));
   EXPECT_EQ(shader.strides.at("GpuDraw"), sizeof(GpuDraw));
   const auto& material = shader.offsets.at("GpuMaterial");
   EXPECT_EQ(material.at("base_color"), offsetof(GpuMaterial, base_color));
