@@ -25,17 +25,24 @@ enum class Verdict : std::uint8_t {
   kHole,      ///< left out, though a little of it can be seen
   kAuthored,  ///< left out by the author, though rays see it (--occlusion both), or as the item's overrides
               ///< say
+  kPaintedHidden,  ///< left out or kept, because it is painted so
+  kPaintedKept,
 };
 
 /// sRGB; a face of a hole is between hidden and kHole by the size of its hole.
-constexpr std::array<Color, 5> kExplainColors = {{{0.80f, 0.78f, 0.75f},
+constexpr std::array<Color, 7> kExplainColors = {{{0.80f, 0.78f, 0.75f},
                                                   {0.85f, 0.35f, 0.75f},
                                                   {0.20f, 0.42f, 0.70f},
                                                   {0.95f, 0.60f, 0.15f},
-                                                  {0.85f, 0.20f, 0.15f}}};
+                                                  {0.85f, 0.20f, 0.15f},
+                                                  {0.10f, 0.42f, 0.18f},
+                                                  {0.45f, 0.80f, 0.35f}}};
 constexpr std::uint32_t kWidth = 320, kHeight = 720;  // of one view
 
-Verdict verdictOf(const FaceHole& hole, bool is_visible, bool was_authored_away) {
+Verdict verdictOf(const FaceHole& hole, bool is_visible, const AuthoredFaces& authored, FaceId face) {
+  if (authored.painted[face] == Paint::kHide) return Verdict::kPaintedHidden;
+  if (authored.painted[face] == Paint::kKeep) return Verdict::kPaintedKept;
+  const bool was_authored_away = authored.visible[face] == 0;
   if (is_visible) return was_authored_away ? Verdict::kRestored : Verdict::kKept;
   if (hole.is_kept) return Verdict::kAuthored;
   return hole.pose == FaceHole::kNoPose ? Verdict::kHidden : Verdict::kHole;
@@ -88,11 +95,20 @@ Image8 drawVerdicts(const TemplateBody& body, std::span<const Color> colors) {
 
 double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
 
-Json describeFace(const TemplateBody& body, const FaceHoles& holes, std::uint32_t number, FaceId face) {
+Json describeFace(const TemplateBody& body, const FaceHoles& holes, std::uint32_t number, FaceId face,
+                  Paint paint) {
   const FaceHole& hole = holes.faces[face];
-  if (hole.is_in_bare_region) return {{"face", number}, {"verdict", "bare region"}};
-  if (hole.pose == FaceHole::kNoPose) return {{"face", number}, {"verdict", "pinhole"}};
-  Json json = {{"face", number}, {"verdict", hole.is_kept ? "kept" : "hole"}};
+  Json json = {{"face", number}};
+  if (paint != Paint::kNone) {
+    json.update({{"verdict", "painted"}, {"paint", paint == Paint::kKeep ? "keep" : "hide"}});
+  } else if (hole.is_in_bare_region) {
+    json["verdict"] = "bare region";
+  } else if (hole.pose == FaceHole::kNoPose) {
+    json["verdict"] = "pinhole";
+  } else {
+    json["verdict"] = hole.is_kept ? "kept" : "hole";
+  }
+  if (hole.is_in_bare_region || hole.pose == FaceHole::kNoPose) return json;
   const ViewedPose& pose = holes.poses[hole.pose];
   if (body.clips.empty()) {
     json.update({{"clip", nullptr}, {"seconds", 0.0}});
@@ -106,14 +122,15 @@ Json describeFace(const TemplateBody& body, const FaceHoles& holes, std::uint32_
 }
 
 Json describeRegion(const TemplateBody& body, const Item& item, const FaceHoles& holes,
-                    const Region& region) {
+                    const PerFace<Paint>& painted, const Region& region) {
   Json faces = Json::array();
   std::uint32_t kept = 0;
   for (std::uint32_t f = 0; f < region.face_count; ++f) {
     const FaceId face(region.first_face + f);
     kept += item.visible[face];
     const FaceHole& hole = holes.faces[face];
-    if (hole.is_kept || hole.pose != FaceHole::kNoPose) faces.push_back(describeFace(body, holes, f, face));
+    if (!hole.is_kept && hole.pose == FaceHole::kNoPose && painted[face] == Paint::kNone) continue;
+    faces.push_back(describeFace(body, holes, f, face, painted[face]));
   }
   return {{"name", region.name},
           {"kept", kept},
@@ -124,12 +141,12 @@ Json describeRegion(const TemplateBody& body, const Item& item, const FaceHoles&
 }  // namespace
 
 void explainHiddenFaces(const std::filesystem::path& folder, const TemplateBody& body, const Item& item,
-                        const PerFace<std::uint8_t>& authored, const FaceHoles& holes,
+                        const AuthoredFaces& authored, const FaceHoles& holes,
                         const HiddenFaceOptions& options) {
   std::vector<Color> colors;
   for (std::size_t f = 0; f < body.faces.size(); ++f) {
     const FaceHole& hole = holes.faces[FaceId(f)];
-    const Verdict verdict = verdictOf(hole, item.visible[FaceId(f)] != 0, authored[FaceId(f)] == 0);
+    const Verdict verdict = verdictOf(hole, item.visible[FaceId(f)] != 0, authored, FaceId(f));
     colors.push_back(colorOf(verdict, hole, options));
   }
   Json json = {{"schema", "ensemble.explain/1"},
@@ -139,7 +156,7 @@ void explainHiddenFaces(const std::filesystem::path& folder, const TemplateBody&
                {"hole_mm2", rounded(1.0e6 * double{options.hole_area})},
                {"regions", Json::array()}};
   for (const Region& region : body.regions)
-    json["regions"].push_back(describeRegion(body, item, holes, region));
+    json["regions"].push_back(describeRegion(body, item, holes, authored.painted, region));
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) failWriting(folder, error.value());

@@ -13,6 +13,7 @@
 #include "assetpipe/explain.h"
 #include "assetpipe/match_faces.h"
 #include "assetpipe/outfit_properties.h"
+#include "assetpipe/painted_faces.h"
 #include "assetpipe/segment.h"
 #include "assetpipe/unmatched_parts.h"
 #include "core/box.h"
@@ -236,6 +237,7 @@ class OutfitTagger {
       }
     }
     primitive.template_vertices.clear();
+    primitive.hide.clear();
     return primitive;
   }
 
@@ -283,7 +285,7 @@ class OutfitTagger {
 
   void findHiddenFaces() {
     const Item* worn = &item_;
-    authored_ = item_.visible;
+    authored_.visible = item_.visible;
     holes_ = findHoles(body_, std::span(&worn, 1), options_.hidden);
     BareBody own_bare(body_, options_.hidden);
     const FaceHoles& bare = (options_.bare != nullptr ? *options_.bare : own_bare).holes();
@@ -312,7 +314,7 @@ class OutfitTagger {
     }
   }
 
-  /// Regions that the item's custom properties keep or hide, whatever else was found.
+  /// Regions that the item's custom properties keep or hide, then painted faces, whatever else was found.
   void applyOverrides() {
     const auto set = [&](const std::vector<RegionId>& regions, std::uint8_t visible) {
       for (const RegionId id : regions) {
@@ -323,6 +325,37 @@ class OutfitTagger {
     };
     set(own_.keep, 1);
     set(own_.hide, 0);
+    applyPaint();
+  }
+
+  /// Faces of the embedded body that `_HIDE` hides or keeps.
+  void applyPaint() {
+    authored_.painted.assign(body_.faces.size(), Paint::kNone);
+    std::size_t number = 0;
+    for (const BodyPrimitive& part : body_primitives_) {
+      for (const Triangle& corners : part.primitive->faces) {
+        const FaceId face = matches_.template_face[number++];
+        const Paint paint = paintOf(*part.primitive, corners);
+        if (paint == Paint::kNone || !face.valid()) continue;
+        authored_.painted[face] = paint;
+        item_.visible[face] = paint == Paint::kKeep ? 1 : 0;
+      }
+    }
+    for (const RawMeshNode& node : outfit_.meshes) {
+      if (!isPaintedGarment(node)) continue;
+      warnings_.push_back("garment '" + node.name +
+                          "' has the attribute _HIDE, which says nothing there; paint the body");
+    }
+  }
+
+  bool isPaintedGarment(const RawMeshNode& node) const {
+    const auto is_body = [&](const RawPrimitive& primitive) {
+      return std::any_of(body_primitives_.begin(), body_primitives_.end(),
+                         [&](const BodyPrimitive& part) { return part.primitive == &primitive; });
+    };
+    return std::any_of(node.primitives.begin(), node.primitives.end(), [&](const RawPrimitive& primitive) {
+      return !primitive.hide.empty() && !is_body(primitive);
+    });
   }
 
   void explain() const {
@@ -344,7 +377,30 @@ class OutfitTagger {
         own_.occlusion == Occlusion::kAuthored
             ? "its body is complete, so nothing is hidden under the clothes; remove the faces that "
               "they hide before exporting, or let --auto-occlusion find them"
-            : "its clothes hide no face of the body");
+        : wouldHideWithItsBacks() ? "its clothes hide no face of the body, but would if the backs of their "
+                                    "faces were drawn; turn the faces "
+                                    "to the outside, or make the materials double-sided"
+                                  : "its clothes hide no face of the body");
+  }
+
+  /// Whether single-sided clothes look the wrong way.
+  bool wouldHideWithItsBacks() const {
+    const auto hidden = [&](const Item& worn) {
+      const Item* const item = &worn;
+      const FaceHoles found = findHoles(body_, std::span(&item, 1), options_.hidden);
+      return std::count_if(found.faces.begin(), found.faces.end(),
+                           [](const FaceHole& face) { return !face.is_kept; });
+    };
+    Item both_sided = item_;
+    bool is_other = false;
+    for (const Garment& garment : item_.garments) {
+      for (const ItemPart& part : garment.parts) {
+        RawMaterial& material = both_sided.materials[part.material];
+        is_other = is_other || !material.double_sided;
+        material.double_sided = true;
+      }
+    }
+    return is_other && hidden(both_sided) > hidden(item_);
   }
 
   /// Right in itself, but hardly meant; as the next.
@@ -380,7 +436,7 @@ class OutfitTagger {
   std::vector<BodyPrimitive> body_primitives_;
   FaceMatches matches_;  ///< of the body primitives' faces, in order
   OutfitProperties own_;
-  PerFace<std::uint8_t> authored_;  ///< what the author left visible, before rays were asked
+  AuthoredFaces authored_;  ///< what the author left visible before rays were asked, and painted
   std::optional<FaceHoles> holes_;
   Item item_;
 };

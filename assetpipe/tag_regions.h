@@ -28,7 +28,7 @@ struct TagOptions {
 /// Turns an outfit as an artist exported it into an item: tells body from garments, brings joints
 /// to the template's (by name, bind positions within 1 mm or five tolerances), matches the body's
 /// faces and tags every region. `extras` of the scene may give `{"ensemble": {"slot", "layer", "occlusion",
-/// "keep", "hide"}}` (docs/wardrobe.md).
+/// "keep", "hide"}}`, and the attribute `_HIDE` of the body paints faces (docs/wardrobe.md).
 /// @param name the item's name, see isValidItemName
 /// @param warnings whole sentences for the user
 /// @throws InputError: no body, no garment and nothing hidden, unskinned garments, a joint that the

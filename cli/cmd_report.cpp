@@ -72,13 +72,18 @@ void runScene(const ReportArguments& arguments) {
                      {"stored", toJson(stored)},
                      {"layers", toJson(layers_here)}});
   }
-  writeFigures(arguments.common, {{"schema", "ensemble.scene_report/1"},
-                                  {"scene", arguments.wardrobe},
-                                  {"people", people},
-                                  {"combinations", combinations},
-                                  {"wardrobes", std::move(parts)},
-                                  {"stored", toJson(total)},
-                                  {"layers", toJson(layers)}});
+  const nlohmann::ordered_json figures = {{"schema", "ensemble.scene_report/1"},
+                                          {"scene", arguments.wardrobe},
+                                          {"people", people},
+                                          {"combinations", combinations},
+                                          {"wardrobes", std::move(parts)},
+                                          {"stored", toJson(total)},
+                                          {"layers", toJson(layers)}};
+  writeFigures(arguments.common, figures);
+  if (!arguments.html_file.empty()) {
+    const std::string page = sceneReportPage(figuresAsWritten(figures));
+    writeFileAtomically(arguments.html_file, std::string_view(page));
+  }
   printResult(arguments.common, fmt::format("{} people in {} combinations\n", people, combinations) +
                                     toTable(total) + toText(layers));
 }
@@ -88,10 +93,9 @@ void checkOptions(const ReportArguments& arguments, bool is_scene) {
   const auto refuse = [](const char* option, const char* what, const char* mend) {
     throw UsageError({"", option, what, mend});
   };
-  constexpr const char* kWardrobeOnly = "a scene is reported as text and JSON only";
+  constexpr const char* kWardrobeOnly = "a scene is reported as text, JSON and a web page only";
   constexpr const char* kGiveWardrobe = "give the folder of a wardrobe, or leave the option out";
   if (is_scene && !arguments.csv_file.empty()) refuse("--csv", kWardrobeOnly, kGiveWardrobe);
-  if (is_scene && !arguments.html_file.empty()) refuse("--html", kWardrobeOnly, kGiveWardrobe);
   if (is_scene && arguments.extrapolate > 0) refuse("--extrapolate", kWardrobeOnly, kGiveWardrobe);
   if (!is_scene && !arguments.overrides.empty()) {
     refuse("--set", "a wardrobe has no keys to set", "give a scene, or leave the option out");

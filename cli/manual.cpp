@@ -13,7 +13,10 @@ constexpr Manual kManuals[] = {
      "face, "
      "and classes every region of every outfit as full, partial or hidden. Clips that travel are put in "
      "place, and their speed over the ground is kept. A wardrobe that is there already is replaced.",
-     "TEMPLATE and OUTFIT are glTF files (docs/wardrobe.md, What an artist delivers). WARDROBE is a folder "
+     "TEMPLATE and OUTFIT are glTF files (docs/wardrobe.md, What an artist delivers). The vertex attribute "
+     "_HIDE of an outfit's body hides a face where all its corners have more than 0.5, keeps it where all "
+     "have "
+     "less than -0.5; the default, 0, leaves it to --occlusion. WARDROBE is a folder "
      "with "
      "wardrobe.json, template.glb and outfits/; after any error it holds what it held before."},
     {"add",

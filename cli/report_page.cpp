@@ -200,7 +200,83 @@ void addExtrapolation(HtmlPage& page, const Json& extrapolated) {
                 {"outfits", "naive", "pre-fitted", "tagged", "tagged of pre-fitted", "figure"}, rows);
 }
 
+/// What combinations store, as a plot and in words.
+void addStored(HtmlPage& page, const Json& stored) {
+  const auto bytes = [&](const char* key) { return stored[key].get<double>(); };
+  const ByteUnit unit = bytes("prefitted_bytes") > 1e7 ? ByteUnit{1e6, "MB (1,000,000 bytes)"} : ByteUnit{};
+  const std::vector<BarPart> parts = {{"mesh bytes", "garments"}};
+  BarGroup group{"all combinations", {}};
+  for (const auto& [name, key] :
+       {std::pair("items once", "lower_bound_bytes"), std::pair("tagged", "tagged_bytes"),
+        std::pair("prefitted", "prefitted_bytes")})
+    group.bars.push_back({name, {bytes(key) / unit.bytes}});
+  page.addFigure(
+      barPlot({"Mesh bytes of all combinations", unit.name, ""}, parts, std::span(&group, 1)),
+      fmt::format(
+          "Items once: the template and each item. Tagged: and an index list for each region that shows in "
+          "part, once for all bodies that show it alike; {:.3f} times the items once. Pre-fitted: each item "
+          "once, and a copy of each visible body; {:.2f} times as much as tagged.",
+          stored["tagged_vs_lower_bound"].get<double>(), stored["prefitted_vs_tagged"].get<double>()));
+}
+
+std::vector<std::string> storedRow(const std::string& name, const std::string& combinations,
+                                   const Json& stored) {
+  return {name,
+          combinations,
+          countText(stored["visible_bodies"]),
+          countText(stored["dedicated_sub_meshes"]),
+          countText(stored["lower_bound_bytes"]),
+          countText(stored["tagged_bytes"]),
+          countText(stored["prefitted_bytes"])};
+}
+const std::vector<std::string> kStoredHeader = {
+    "", "combinations", "visible bodies", "dedicated sub-meshes", "items once", "tagged", "pre-fitted"};
+
+/// Nothing for a wardrobe of complete outfits, which are not combined.
+void addCombinations(HtmlPage& page, const Json& figures) {
+  const Json& combinations = figures["combinations"];
+  std::string items;
+  std::size_t slots = 0;
+  for (const auto& [slot, count] : combinations["items"].items()) {
+    if (count == 0) continue;
+    items += fmt::format("{}{} {}", slots++ == 0 ? "" : ", ", countText(count), slot);
+  }
+  if (slots < 2) return;
+  page.addHeading("Combined");
+  const Json& number = combinations["count"];
+  const std::string count = number.is_null() ? "2^64 or more" : countText(number);
+  page.addParagraph(fmt::format("{} combinations of the items ({}) dress a person.", count, items));
+  const Json& stored = combinations["stored"];
+  if (stored.is_null()) {
+    page.addParagraph("They show too many different bodies to count what all of them store.");
+    return;
+  }
+  addStored(page, stored);
+  page.addTable("What all combinations store, in bytes", kStoredHeader,
+                {storedRow(figures["wardrobe"], count, stored)});
+}
+
 }  // namespace
+
+std::string sceneReportPage(const Json& figures) {
+  HtmlPage page("What a crowd's clothes store: " + figures["scene"].get<std::string>());
+  page.addParagraph(
+      fmt::format("{} people in {} combinations of items. Mesh bytes as the GPU holds them, each "
+                  "distinct mesh once.",
+                  countText(figures["people"]), countText(figures["combinations"])));
+  addStored(page, figures["stored"]);
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& wardrobe : figures["wardrobes"]) {
+    const std::string key = wardrobe["key"];
+    rows.push_back(
+        storedRow(fmt::format("{}{}{} people", key, key.empty() ? "" : ", ", countText(wardrobe["people"])),
+                  countText(wardrobe["combinations"]), wardrobe["stored"]));
+  }
+  if (rows.size() > 1)
+    rows.push_back(storedRow("in all", countText(figures["combinations"]), figures["stored"]));
+  page.addTable("What the combinations that people wear store, in bytes", kStoredHeader, rows);
+  return page.text();
+}
 
 std::string reportPage(const Json& figures) {
   HtmlPage page("What tagging saves: " + figures["wardrobe"].get<std::string>());
@@ -212,6 +288,7 @@ std::string reportPage(const Json& figures) {
   addTotals(page, figures, unit);
   addOutfits(page, figures, unit);
   addRegions(page, figures);
+  addCombinations(page, figures);
   if (figures.contains("extrapolated")) addExtrapolation(page, figures["extrapolated"]);
   return page.text();
 }

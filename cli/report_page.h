@@ -10,4 +10,7 @@ namespace ensemble::cli {
 /// the wardrobe's name besides ("wardrobe").
 std::string reportPage(const nlohmann::ordered_json& figures);
 
+/// The page of a scene's report ("ensemble.scene_report/1").
+std::string sceneReportPage(const nlohmann::ordered_json& figures);
+
 }  // namespace ensemble::cli

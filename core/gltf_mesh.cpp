@@ -170,6 +170,10 @@ void readTemplateVertices(const PrimitiveSource& source, RawPrimitive& primitive
   }
 }
 
+void readHide(const PrimitiveSource& source, RawPrimitive& primitive) {
+  if (source.has("_HIDE")) primitive.hide = source.floats("_HIDE", 1);
+}
+
 /// The influences of all vertices of a primitive, JOINTS_0 and on.
 struct Influences {
   std::vector<std::vector<std::uint32_t>> joints;
@@ -244,7 +248,7 @@ void noteDropped(const PrimitiveSource& source, const JsonRef& json, const std::
       dropped.add("tangents");
     } else if (name.starts_with("COLOR_")) {
       dropped.add(fmt::format("vertex colours of node '{}'", node));
-    } else if (name.starts_with("_") && name != "_TEMPLATE_VERTEX") {
+    } else if (name.starts_with("_") && name != "_TEMPLATE_VERTEX" && name != "_HIDE") {
       dropped.add(fmt::format("attribute '{}'", name));
     }
   }
@@ -268,6 +272,7 @@ void readVertices(const PrimitiveSource& source, const GltfMaterial& material, R
   }
   readUvs(source, material, primitive.vertices);
   readTemplateVertices(source, primitive);
+  readHide(source, primitive);
 }
 
 }  // namespace

@@ -144,11 +144,13 @@ void weld(RawPrimitive& primitive) {
   constexpr std::uint32_t kUnused = 0xffffffffu;
   const std::vector<RawVertex>& vertices = primitive.vertices;
   const std::vector<std::uint32_t>& numbers = primitive.template_vertices;
+  const std::vector<float>& hide = primitive.hide;
   const auto hash = [&](std::uint32_t i) {
     return mix(hashVertex(vertices[i]), numbers.empty() ? 0 : numbers[i]);
   };
   const auto equal = [&](std::uint32_t a, std::uint32_t b) {
-    return vertices[a] == vertices[b] && (numbers.empty() || numbers[a] == numbers[b]);
+    return vertices[a] == vertices[b] && (numbers.empty() || numbers[a] == numbers[b]) &&
+           (hide.empty() || hide[a] == hide[b]);
   };
   std::vector<bool> used(vertices.size(), false);
   for (const Triangle& face : primitive.faces) {
@@ -160,13 +162,14 @@ void weld(RawPrimitive& primitive) {
     if (used[i]) first_of[i] = *distinct.insert(i).first;
   }
   std::vector<std::uint32_t> new_number(vertices.size(), kUnused);
-  RawPrimitive welded{primitive.material, {}, std::move(primitive.faces), {}};
+  RawPrimitive welded{primitive.material, {}, std::move(primitive.faces), {}, {}};
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     if (first_of[i] == kUnused) continue;
     if (first_of[i] == i) {
       new_number[i] = static_cast<std::uint32_t>(welded.vertices.size());
       welded.vertices.push_back(vertices[i]);
       if (!numbers.empty()) welded.template_vertices.push_back(numbers[i]);
+      if (!hide.empty()) welded.hide.push_back(hide[i]);
     } else {
       new_number[i] = new_number[first_of[i]];
     }

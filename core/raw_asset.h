@@ -41,6 +41,9 @@ struct RawPrimitive {
   std::vector<Triangle> faces;  ///< in the file's order, indices into vertices
   /// `_TEMPLATE_VERTEX` of each vertex, #V, or empty where the file has none (design 1).
   std::vector<std::uint32_t> template_vertices;
+  /// `_HIDE` of each vertex, #V, or empty: where all corners of a body face have more than 0.5, it is hidden,
+  /// where all have less than -0.5, it is kept. Read, never written.
+  std::vector<float> hide;
   bool operator==(const RawPrimitive&) const = default;
 };
 

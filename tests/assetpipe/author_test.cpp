@@ -10,15 +10,20 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include "assetpipe/author_outfit.h"
 #include "assetpipe/cloth_mesh.h"
 #include "assetpipe/segment.h"
 #include "assetpipe/tag_regions.h"
+#include "core/atomic_file.h"
 #include "core/gltf_file.h"
+#include "core/image_file.h"
 #include "core/input_error.h"
 #include "tests/assetpipe/person_config.h"
 #include "tests/assetpipe/poke_through.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ensemble {
 namespace {
@@ -221,6 +226,76 @@ TEST(Author, GarmentsOfOneRecipeLieOverEachOther) {
   // Jacket and trousers are of one cloth, so one tint colours both.
   EXPECT_EQ(outfit.asset.meshes[first].primitives[0].material,
             outfit.asset.meshes[first + 2].primitives[0].material);
+}
+
+constexpr const char* kTextured =
+    "version: 1\nname: a\nslot: lower\ngarments:\n"
+    "  - {name: a, kind: body, top: 0.3, hem: -0.1, texture: cloth.png, texture_size: 120,\n"
+    "     trims: [{name: belt, level: [0.2, 0.28], color: '#204060'}]}\n";
+
+/// What the program reads again of kTextured, made for the woman with a texture beside the recipe.
+RawAsset texturedOutfit(const testing::TemporaryFolder& folder, std::span<const std::byte> texture) {
+  writeFileAtomically(folder / "cloth.png", texture);
+  const Person& person = personOf("woman");
+  const Recipe recipe = parseRecipe(kTextured, folder / "a.yaml");
+  return readGlb(writeGlb(authorOutfit(recipe, person.asset, *person.measured).asset), "a.glb");
+}
+
+TEST(Author, ATextureIsInTheFileAndLiesEvenlyOnTheCloth) {
+  Image8 stripes{4, 2, {}};
+  for (int pixel = 0; pixel < 8; ++pixel) {
+    const std::uint8_t red = pixel % 2 == 0 ? 250 : 10;
+    stripes.rgba.insert(stripes.rgba.end(), {red, 40, 90, 255});
+  }
+  const std::vector<std::byte> png = encodePng(stripes);
+  const testing::TemporaryFolder folder;
+  const RawAsset outfit = texturedOutfit(folder, png);
+  const RawMeshNode& garment = outfit.meshes.back();
+  ASSERT_EQ(garment.name, "garment.a");
+  ASSERT_EQ(garment.primitives.size(), 2u);
+  const RawMaterial& cloth = outfit.materials[garment.primitives[0].material];
+  const RawMaterial& belt = outfit.materials[garment.primitives[1].material];
+  EXPECT_EQ(cloth.name, "cloth.a");
+  EXPECT_EQ(cloth.base_color, Vec4(1.0f)) << "the texture's own colours";
+  EXPECT_TRUE(cloth.repeat_u && cloth.repeat_v);
+  EXPECT_FALSE(belt.image);
+  ASSERT_TRUE(cloth.image);
+  EXPECT_EQ(outfit.images[*cloth.image].bytes, png);
+
+  const float repeat = 0.12f * personOf("woman").measured->scale();
+  constexpr float kTurn = 8.0f;  // repeats around the trunk: 0.95 m on a body of 1.75 m
+  float least_u = 0.0f, most_u = 0.0f;
+  for (const Triangle& face : garment.primitives[0].faces) {
+    float least = 1e9f, most = -1e9f;
+    for (const std::uint32_t corner : face) {
+      const RawVertex& vertex = garment.primitives[0].vertices[corner];
+      EXPECT_NEAR(-vertex.uv.y * repeat, vertex.position.y, 0.012f) << "upright, but for edges turned in";
+      least = std::min(least, vertex.uv.x);
+      most = std::max(most, vertex.uv.x);
+    }
+    EXPECT_LT(most - least, 0.25f * kTurn) << "a face runs back all around";
+    least_u = std::min(least_u, least);
+    most_u = std::max(most_u, most);
+  }
+  EXPECT_NEAR(most_u - least_u, kTurn, 1.0f);
+}
+
+TEST(Author, ATextureThatIsNoneIsRefused) {
+  const testing::TemporaryFolder folder;
+  const std::string file = (folder / "cloth.png").string();
+  const auto refusal = [&](std::string_view texture) -> std::string {
+    try {
+      texturedOutfit(folder, std::as_bytes(std::span(texture)));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("GIF89a"), file + "?");
+  EXPECT_EQ(refusal("\x89PNG\r\n\x1a\n"), file + "?");
+  const Recipe lost = parseRecipe(kTextured, "nowhere/a.yaml");
+  const Person& person = personOf("woman");
+  EXPECT_THROW(authorOutfit(lost, person.asset, *person.measured), InputError);
 }
 
 TEST(Author, CountsWhatPokesThrough) {

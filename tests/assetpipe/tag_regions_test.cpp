@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "assetpipe/segment.h"
+#include "core/atomic_file.h"
+#include "core/image_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/small_people.h"
 #include "tests/support/temporary_folder.h"
@@ -216,6 +220,79 @@ TEST(TagRegions, AnItemMayKeepAndHideRegions) {
       visibility(R"({"hide": "legs", "keep": "legs"})"),
       "tunic.glb: /scenes: the custom properties 'keep' and 'hide' both name the region 'legs'; "
       "take it out of one of them");
+}
+
+/// Paints the two lowest rings of vertices of a region of the body, and so its first 16 faces.
+void paintLowestRing(RawAsset& outfit, std::size_t region, float value) {
+  RawPrimitive& primitive = outfit.meshes[0].primitives[region];
+  primitive.hide.assign(primitive.vertices.size(), 0.0f);
+  std::fill_n(primitive.hide.begin(), 2 * testing::kTubeSegments, value);
+}
+
+TEST(TagRegions, PaintedFacesShowOrDontWhateverElseIsFound) {
+  RawAsset outfit = testing::tubeOutfit([](int, int) { return true; }, 0.203f);
+  TagOptions rays;
+  rays.occlusion = Occlusion::kAuto;
+  const std::uint32_t torso_found = tag(outfit, nullptr, rays).tags[RegionId(1)].visible_faces;
+  outfit.scene_extras_json = R"({"ensemble": {"keep": "legs", "hide": "torso"}})";
+  paintLowestRing(outfit, 0, 0.75f);
+  paintLowestRing(outfit, 1, -0.75f);
+  paintLowestRing(outfit, 2, 0.5f);  // not more than a half: nothing said
+  std::vector<std::string> warnings;
+  for (const TagOptions& options : {TagOptions(), rays}) {
+    const Item item = tag(outfit, &warnings, options);
+    EXPECT_EQ(item.tags[RegionId(0)].visible_faces, 48u);
+    EXPECT_EQ(item.tags[RegionId(1)].visible_faces, 16u);
+    for (std::uint32_t f = 0; f < 128; ++f) {
+      EXPECT_EQ(item.visible[FaceId(f)] != 0, (f >= 16 && f < 64) || (f >= 64 && f < 80)) << f;
+    }
+    EXPECT_EQ(item.tags[RegionId(2)].visibility, Visibility::kFull);
+  }
+  EXPECT_LT(torso_found, 16u) << "the rays alone would have hidden painted faces";
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+TEST(TagRegions, ExplainTellsOfPaint) {
+  RawAsset outfit = testing::tubeOutfit([](int, int) { return true; }, 0.203f);
+  paintLowestRing(outfit, 0, 1.0f);
+  paintLowestRing(outfit, 1, -1.0f);
+  const testing::TemporaryFolder folder;
+  TagOptions rays;
+  rays.occlusion = Occlusion::kAuto;
+  rays.explain = folder.path();
+  tag(outfit, nullptr, rays);
+  const std::vector<std::byte> text = readFile(folder / "tunic.json");
+  const auto why = nlohmann::json::parse(reinterpret_cast<const char*>(text.data()),
+                                         reinterpret_cast<const char*>(text.data() + text.size()));
+  std::map<std::string, std::vector<int>> painted;  // paint -> faces
+  for (const auto& region : why["regions"]) {
+    for (const auto& face : region["faces"]) {
+      if (face["verdict"] == "painted") painted[face["paint"]].push_back(face["face"]);
+    }
+  }
+  std::vector<int> first_16(16);
+  std::iota(first_16.begin(), first_16.end(), 0);
+  EXPECT_EQ(painted, (std::map<std::string, std::vector<int>>{{"hide", first_16}, {"keep", first_16}}));
+  const Image8 picture = decodeImage({"", "image/png", readFile(folder / "tunic.png"), 0, 0}, "tunic.png");
+  std::size_t green = 0;
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+    green +=
+        picture.rgba[i + 1] > picture.rgba[i] + 20 && picture.rgba[i + 1] > picture.rgba[i + 2] + 20 ? 1 : 0;
+  }
+  EXPECT_GT(green, 10'000u) << "two bands of 15 cm, of 1.8 m, from four sides";
+}
+
+TEST(TagRegions, PaintOnAGarmentIsTold) {
+  RawAsset outfit = halfDressed();
+  RawPrimitive& tunic = outfit.meshes.back().primitives[0];
+  tunic.hide.assign(tunic.vertices.size(), 1.0f);
+  std::vector<std::string> warnings;
+  const Item item = tag(outfit, &warnings);
+  expectHalfDressed(item);
+  EXPECT_THAT(item.garments[0].parts[0].hide, IsEmpty());
+  EXPECT_THAT(warnings,
+              ::testing::ElementsAre("garment 'garment.tunic' has the attribute _HIDE, which says nothing "
+                                     "there; paint the body"));
 }
 
 // A tunic far inside the body covers nothing; what its author removed comes back where rays are asked.

@@ -124,14 +124,17 @@ TEST_F(MixAndMatch, TheReportOfASceneCountsWhatIsWorn) {
   EXPECT_EQ(report["combinations"], 4);
   EXPECT_EQ(report["wardrobes"][0]["stored"], report["stored"]);
   EXPECT_GT(report["stored"]["prefitted_vs_tagged"], 1.0);
-  for (const char* option : {"--csv a.csv", "--html a.html", "--extrapolate 5"}) {
+  for (const char* option : {"--csv a.csv", "--extrapolate 5"}) {
     const ProgramResult refused = run(std::string("report scene.yaml ") + option);
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_EQ(refused.err,
-              "ensemble: " + std::string(option).substr(0, std::string(option).find(' ')) +
-                  ": a scene is reported as text and JSON only; give the folder of a wardrobe, or leave "
-                  "the option out\n");
+    EXPECT_EQ(
+        refused.err,
+        "ensemble: " + std::string(option).substr(0, std::string(option).find(' ')) +
+            ": a scene is reported as text, JSON and a web page only; give the folder of a wardrobe, or "
+            "leave the option out\n");
   }
+  ASSERT_EQ(run("report scene.yaml --set crowd.wear.upper.tshirt=1 --html page.html").exit_code, 0);
+  EXPECT_THAT(bytes("page.html"), HasSubstr("<p>41 people in 4 combinations of items."));
   const ProgramResult refused = run("report w --set crowd.count=5");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.err,

@@ -153,6 +153,48 @@ TEST(Pages, TheReportsPageShowsItsFigures) {
   EXPECT_EQ(count(reportPage(figures), "<svg "), 4u);
 }
 
+const Json kStored = {{"visible_bodies", 1234},       {"dedicated_sub_meshes", 56},
+                      {"lower_bound_bytes", 2000000}, {"tagged_bytes", 2100000},
+                      {"prefitted_bytes", 6300000},   {"tagged_vs_lower_bound", 1.05},
+                      {"prefitted_vs_tagged", 3.0}};
+
+TEST(Pages, TheReportsPageTellsOfCombinations) {
+  Json figures = toJson(smallReport());
+  figures["wardrobe"] = "w";
+  EXPECT_THAT(reportPage(figures), Not(HasSubstr("Combined"))) << "complete outfits are not combined";
+  figures["combinations"] = {
+      {"items", {{"upper", 20}, {"head", 0}, {"lower", 30}}}, {"count", 600}, {"stored", kStored}};
+  const std::string page = reportPage(figures);
+  expectWholePage(page);
+  EXPECT_THAT(page, HasSubstr("<p>600 combinations of the items (20 upper, 30 lower) dress a person.</p>"));
+  EXPECT_THAT(page, HasSubstr("1.050 times the items once"));
+  EXPECT_THAT(page, HasSubstr("3.00 times as much as tagged"));
+  EXPECT_THAT(page, HasSubstr("<td>w</td><td>600</td><td>1,234</td><td>56</td><td>2,000,000</td>"
+                              "<td>2,100,000</td><td>6,300,000</td>"));
+  EXPECT_EQ(count(page, "<svg "), 7u);
+  figures["combinations"]["count"] = nullptr;
+  figures["combinations"]["stored"] = nullptr;
+  EXPECT_THAT(reportPage(figures), HasSubstr("<p>2^64 or more combinations of the items"));
+  EXPECT_THAT(reportPage(figures), HasSubstr("too many different bodies"));
+}
+
+TEST(Pages, AScenesPageShowsItsFigures) {
+  const Json part = {{"key", "men"}, {"people", 7}, {"combinations", 3}, {"stored", kStored}};
+  Json figures = {{"scene", "a<b.yaml"},
+                  {"people", 5000},
+                  {"combinations", 842},
+                  {"wardrobes", {part, part}},
+                  {"stored", kStored}};
+  const std::string page = sceneReportPage(figures);
+  expectWholePage(page);
+  EXPECT_THAT(page, HasSubstr("<h1>What a crowd's clothes store: a&lt;b.yaml</h1>"));
+  EXPECT_THAT(page, HasSubstr("<p>5,000 people in 842 combinations of items."));
+  EXPECT_EQ(count(page, "<td>men, 7 people</td><td>3</td>"), 2u);
+  EXPECT_EQ(count(page, "<td>in all</td><td>842</td>"), 1u);
+  figures["wardrobes"] = {part};
+  EXPECT_EQ(count(sceneReportPage(figures), "<td>in all</td>"), 0u);
+}
+
 TEST(Pages, AWardrobeWithoutOutfitsHasAPage) {
   Report report;
   report.template_faces = 10;

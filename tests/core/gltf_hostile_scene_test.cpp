@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "core/gltf_file.h"
@@ -98,6 +99,23 @@ TEST(GltfHostile, TemplateVertex) {
   EXPECT_EQ(refusal(glb),
             "x.glb: /meshes/0/primitives/0/attributes/_TEMPLATE_VERTEX: 1.5 is no vertex number; "
             "tag the outfit again");
+}
+
+TEST(GltfHostile, Paint) {
+  const auto refusalOf = [](const std::vector<float>& values, const char* type) {
+    TestGlb glb = triangleGlb();
+    glb.json["meshes"][0]["primitives"][0]["attributes"]["_HIDE"] = glb.addAccessor<float>(values, type);
+    return refusal(glb);
+  };
+  EXPECT_EQ(refusalOf({1, 1}, "SCALAR"),
+            "x.glb: /meshes/0/primitives/0/attributes/_HIDE: 2 _HIDE for 3 positions; export the file again");
+  EXPECT_EQ(refusalOf({1, 1, 1, 1, 1, 1}, "VEC2"),
+            "x.glb: /meshes/0/primitives/0/attributes/_HIDE: _HIDE has 2 components instead of 1; export the "
+            "file again");
+  EXPECT_EQ(
+      refusalOf({1, std::nanf(""), 1}, "SCALAR"),
+      "x.glb: /accessors/3: element 1 is not a finite number; remove the damaged vertex or key and export "
+      "the file again");
 }
 
 TEST(GltfHostile, ReferencesOutOfRange) {

@@ -194,6 +194,28 @@ TEST(GltfRead, TemplateVerticesKeepVerticesApart) {
   EXPECT_EQ(tri.vertices.size(), 3u);
 }
 
+TEST(GltfRead, PaintKeepsVerticesApart) {
+  TestGlb glb = triangleGlb();
+  primitive(glb)["attributes"]["POSITION"] = glb.addAccessor<float>({0, 0, 0, 0, 0, 0, 0, 2, 0}, "VEC3");
+  primitive(glb)["attributes"]["_HIDE"] = glb.addAccessor<float>({1, -0.25f, 1}, "SCALAR");
+  const RawPrimitive tri = readTriangle(glb);
+  EXPECT_THAT(tri.hide, ElementsAre(1.0f, -0.25f, 1.0f));
+  EXPECT_EQ(tri.vertices.size(), 3u);
+  primitive(glb)["attributes"]["_HIDE"] = glb.addAccessor<float>({1, 1, 1}, "SCALAR");
+  EXPECT_EQ(readTriangle(glb).vertices.size(), 2u);
+}
+
+TEST(GltfRead, PaintMayBeOfAnyComponentType) {
+  TestGlb glb = triangleGlb();
+  primitive(glb)["attributes"]["_HIDE"] = glb.addAccessor<std::uint8_t>({255, 0, 51}, "SCALAR");
+  glb.json["accessors"].back()["normalized"] = true;
+  EXPECT_THAT(readTriangle(glb).hide, ElementsAre(1.0f, 0.0f, 0.2f));
+  primitive(glb)["attributes"]["_HIDE"] = glb.addAccessor<std::int8_t>({-1, 0, 1}, "SCALAR");
+  const RawAsset asset = read(glb);
+  EXPECT_THAT(asset.meshes[0].primitives[0].hide, ElementsAre(-1.0f, 0.0f, 1.0f));
+  EXPECT_TRUE(asset.dropped.empty());
+}
+
 TEST(GltfRead, WedgesShareOneBinding) {
   TestGlb glb = skinnedGlb();
   auto& attributes = primitive(glb)["attributes"];

@@ -118,6 +118,7 @@ def packed():
         "count": 2, "indices": {"bufferView": sparse_indices, "componentType": UBYTE},
         "values": {"bufferView": sparse_values}}})
     attributes["COLOR_0"] = len(writer.accessors) - 1
+    attributes["_HIDE"] = writer.accessor(FLOAT, "SCALAR", [1.0, 1.0, 1.0, -1.0, 0.0])
     wide, narrow = writer.accessor(UINT, "SCALAR", FACES), writer.accessor(UBYTE, "SCALAR", [0, 1, 2, 3, 4])
     writer.write("packed.glb", {
         "extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],

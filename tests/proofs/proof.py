@@ -31,7 +31,8 @@ def arguments(description):
     parser.add_argument("--node-modules", type=pathlib.Path, default=PROJECT / "build/proofs/node_modules",
                         help="what install_node_packages.sh made")
     parser.add_argument("--work", type=pathlib.Path, default=None, help="folder for the files made; emptied first")
-    parser.add_argument("--full", action="store_true", help="everything instead of a fixed sample")
+    parser.add_argument("--full", action="store_true", default="ENSEMBLE_FULL_TESTS" in os.environ,
+                        help="everything instead of a fixed sample")
     options = parser.parse_args()
     if options.work is None:
         options.work = PROJECT / "build/proofs" / pathlib.Path(sys.argv[0]).stem
@@ -44,10 +45,12 @@ def arguments(description):
     return options
 
 
-def run(*command, **keywords):
-    """Runs a command; its standard output. A failure ends the proof with what the command said."""
+def run(*command, may_fail=False, **keywords):
+    """Runs a command; its standard output. A failure ends the proof with what the command said, or gives that."""
     done = subprocess.run([str(part) for part in command], text=True, capture_output=True, stdin=subprocess.DEVNULL,
                           **keywords)
+    if done.returncode != 0 and may_fail:
+        return done.stdout + done.stderr
     if done.returncode != 0:
         fail(f"exit code {done.returncode} of: {' '.join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
     return done.stdout
@@ -144,10 +147,15 @@ def everybody(options):
 
 def blender(script, *parts):
     """Runs a script of this folder inside Blender without a window; its output."""
+    return blenderRun([], PROJECT / "tests/proofs" / script, *parts)
+
+
+def blenderRun(files, script, *parts, **keywords):
+    """Runs a script inside Blender with a file open, or none; its output."""
     if shutil.which("blender") is None:
         skip("Blender is not installed (scripts/install_packages.sh test)")
     # Debian's Blender takes the first python3 in PATH for its own, and that must be Debian's.
     environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
     environment["PATH"] = "/usr/bin:/bin:" + environment.get("PATH", "")
-    return run("blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-               PROJECT / "tests/proofs" / script, "--", *parts, env=environment)
+    return run("blender", "--background", "--factory-startup", *files, "--python-exit-code", "1", "--python",
+               script, "--", *parts, env=environment, **keywords)
