@@ -229,8 +229,8 @@ std::vector<std::string> storedRow(const std::string& name, const std::string& c
           countText(stored["tagged_bytes"]),
           countText(stored["prefitted_bytes"])};
 }
-const std::vector<std::string> kStoredHeader = {
-    "", "combinations", "visible bodies", "dedicated sub-meshes", "items once", "tagged", "pre-fitted"};
+const std::vector<std::string> kStoredHeader = {"",           "combinations", "visible bodies", "sub-meshes",
+                                                "items once", "tagged",       "pre-fitted"};
 
 /// Nothing for a wardrobe of complete outfits, which are not combined.
 void addCombinations(HtmlPage& page, const Json& figures) {

@@ -16,7 +16,8 @@ unsigned threadCount(unsigned wished) {
   return wished > 0 ? wished : std::max(1u, std::thread::hardware_concurrency());
 }
 
-void forEachOnThreads(unsigned threads, std::size_t count, const std::function<void(std::size_t, unsigned)>& work) {
+void forEachOnThreads(unsigned threads, std::size_t count,
+                      const std::function<void(std::size_t, unsigned)>& work) {
   ENSEMBLE_CHECK(threads > 0);
   std::atomic<std::size_t> next{0};
   std::mutex mutex;

@@ -15,6 +15,7 @@ unsigned threadCount(unsigned wished);
 /// @param threads at least 1
 /// @throws what work threw: of several, that of the least number, as if they had run in order. All jobs have
 ///         been tried then.
-void forEachOnThreads(unsigned threads, std::size_t count, const std::function<void(std::size_t, unsigned)>& work);
+void forEachOnThreads(unsigned threads, std::size_t count,
+                      const std::function<void(std::size_t, unsigned)>& work);
 
 }  // namespace ensemble

@@ -7,8 +7,8 @@
 # outfits/*.glb is a wardrobe. Leaves all it makes in out/: people/, wardrobes/, street.glb,
 # scene.yaml, crowd.png, reports/.
 #
-#   --full            eight people of all ages and builds (and config/people/street.yaml), each with every recipe
-#                     of outfits/; takes about a quarter of an hour more
+#   --full            eight people of all ages and builds (config/people/*.yaml), each with every recipe
+#                     of outfits/; takes several times as long
 #   --occlusion KIND  as of `ensemble tag` (default: auto for people made here, whose bodies are complete;
 #                     authored for those in DIR)
 set -euo pipefail

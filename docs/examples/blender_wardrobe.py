@@ -1,5 +1,5 @@
-"""Makes a file as scripts/blender_export.py wants it: a body with its actions in the collection `Body`, and in `Clothes` a
-collection for each file of somebody dressed, named as the file, with its slot and layer.
+"""Makes a file as scripts/blender_export.py wants it: a body with its actions in the collection `Body`, and in
+`Clothes` a collection for each file of somebody dressed, named as the file, with its slot and layer.
 
     blender -b --python blender_wardrobe.py -- OUT.blend TEMPLATE.glb DRESSED.glb...
 """

@@ -76,7 +76,7 @@ TEST(FindLayers, WhatLooksOutIsKept) {
   }
 }
 
-// The shirt lies 5 mm outside the jacket, then 15 mm.
+// The shirt lies 5 mm outside the coat, then 15 mm.
 TEST(FindLayers, WhatPokesThroughIsHiddenWithinTheTolerance) {
   const Item coat = band("coat", Slot::kOver, 0.22f, 0.0f, 1.8f);
   const Item wide = band("shirt", Slot::kUpper, 0.225f, 0.6f, 1.2f);

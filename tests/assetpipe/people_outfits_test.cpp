@@ -78,7 +78,7 @@ void expectAuthorMakesTheSame(const MadePerson& made, const MadeOutfit& outfit) 
 /// What lies under cloth at rest must not stand out of it by more than 2 mm, and hardly ever in motion.
 void expectSkinDoesNotPokeThrough(const MadePerson& made) {
   for (const auto& [recipe, outfit] : made.outfits) {
-    if (recipe.slot == "hair" || recipe.slot == "head") continue;
+    if (recipe.slot == Slot::kHair || recipe.slot == Slot::kHead) continue;
     const testing::PokeThrough poke = testing::countPokeThrough(made.body, outfit.asset);
     EXPECT_EQ(poke.at_rest, 0u) << recipe.name;
     EXPECT_GT(poke.looked_at, 100u) << recipe.name;

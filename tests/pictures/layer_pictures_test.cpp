@@ -29,10 +29,11 @@ namespace fs = std::filesystem;
 
 const fs::path kPeople = "../shared/people";  // tests run in the project's folder
 constexpr std::uint32_t kSize = 256;
-/// An inner item shows through an outer one where, were it not worn, the outer one would be seen so close
-/// behind, metres; or farther, if the outer one covers the face that shows at rest: a leg that steps out of a
-/// coat counts, a sleeve before a waistcoat doesn't.
-constexpr float kPokeDepth = 0.02f, kCoveredPokeDepth = 0.1f;
+/// An outer item covers a face of an inner one if at rest it lies before the face's middle, or under it
+/// within the tolerance. Such a face shows through where, were the inner item not worn, the outer one would
+/// be seen at most so far behind, metres. A leg that steps out of a coat counts; trousers that hang over
+/// boots, or a sleeve before a waistcoat, are not covered.
+constexpr float kPokeDepth = 0.1f;
 
 bool isFull() { return std::getenv("ENSEMBLE_FULL_TESTS") != nullptr; }
 
@@ -172,21 +173,24 @@ class LayerPictures : public ::testing::TestWithParam<std::string> {
     return shots;
   }
 
-  /// Per face of an inner item, whether an outer one lies before its middle at rest.
-  const std::vector<bool>& coveredAtRest(ItemId inner, ItemId outer) {
+  /// Per face of an inner item, whether an outer one covers it.
+  const std::vector<bool>& coveredFaces(ItemId inner, ItemId outer) {
     std::vector<bool>& covered = covered_[{inner, outer}];
     if (!covered.empty()) return covered;
     const RayDevice device;
     const RawSkeleton& skeleton = plain_[0].body.skeleton;
     const std::vector<Mat4> rest = skinningMatrices(skeleton, restPose(skeleton));
-    const RayScene scene(device, surfaceOf(plain_[0].items[outer]), {}, rest);
+    const Item* around = &plain_[0].items[outer];
     const ViewedSurface surface = surfaceOf(plain_[0].items[inner]);
+    const RayScene outer_alone(device, surfaceOf(*around), {}, rest),
+        both(device, surface, {.body = nullptr, .items = std::span(&around, 1)}, rest);
     for (const Triangle& face : surface.faces) {
       std::array<Vec3, 3> at;
       for (std::size_t k = 0; k < 3; ++k) at[k] = skinPosition(surface.vertices[face[k]], rest);
-      const Vec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
-      covered.push_back(glm::length(normal) > 0.0f &&
-                        !scene.isSeen((at[0] + at[1] + at[2]) / 3.0f, glm::normalize(normal), 0xffffffffu));
+      const Vec3 doubled = glm::cross(at[1] - at[0], at[2] - at[0]), middle = (at[0] + at[1] + at[2]) / 3.0f;
+      const Vec3 normal = doubled / std::max(glm::length(doubled), 1.0e-12f);
+      covered.push_back(!outer_alone.isSeen(middle, normal, 0xffffffffu) ||
+                        both.hasClothUnder(middle, normal, HiddenFaceOptions().tolerance));
     }
     return covered;
   }
@@ -199,8 +203,7 @@ class LayerPictures : public ::testing::TestWithParam<std::string> {
         const auto &shown = shots.garments[v][p], &behind = without.garments[v][p];
         if (!shown || shown->item != inner || !behind || !isOver(behind->item, inner)) continue;
         const float depth = without.pictures[v].depth[p] - shots.pictures[v].depth[p];
-        const bool is_covered = coveredAtRest(inner, behind->item)[shown->face];
-        pokes += depth <= (is_covered ? kCoveredPokeDepth : kPokeDepth) ? 1 : 0;
+        pokes += coveredFaces(inner, behind->item)[shown->face] && depth <= kPokeDepth ? 1 : 0;
       }
     }
     return pokes;
@@ -285,8 +288,9 @@ TEST_P(LayerPictures, InnerItemsHardlyShowThroughOuterOnes) {
               all.people);
   ASSERT_GT(all.people, 100000u);
   EXPECT_GT(all.before, 100u) << "nothing poked through, so the comparison proves nothing";
-  EXPECT_LT(worst, 0.5) << "per cent of a person's pixels";
-  EXPECT_LT(all.percent(all.holes), 0.1);
+  EXPECT_LT(all.pokes, all.before);
+  EXPECT_LT(worst, 0.5);
+  EXPECT_LT(all.percent(all.holes), 0.3) << "as for the body";
 }
 
 INSTANTIATE_TEST_SUITE_P(BothSexes, LayerPictures, ::testing::Values("female", "male"),

@@ -1,5 +1,6 @@
-"""Run inside Blender (-- OUT.blend OUT.json TEMPLATE.glb NAME UNFITTED.glb FITTED.glb ...): a file as an artist has it, for
-scripts/blender_export.py: a body with its actions in the collection Body, and in Clothes a collection for each outfit.
+"""Run inside Blender (-- OUT.blend OUT.json TEMPLATE.glb NAME UNFITTED.glb FITTED.glb ...): a file as an artist has
+it, for scripts/blender_export.py: a body with its actions in the collection Body, and in Clothes a collection for each
+outfit.
 
 For each NAME there are two items of the same garments: NAME, for rays to find what it hides, and NAME_painted, under
 which the vertex group `hide.NAME_painted` of the body holds the corners of what the maker of FITTED.glb removed by

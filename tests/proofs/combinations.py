@@ -61,7 +61,8 @@ def main():
 
     for name, report in reports.items():
         count = report["combinations"]["count"]
-        require(count >= COMBINATIONS, f"{name}: {len(recipes)} items give {count} combinations, at least {COMBINATIONS}")
+        require(count >= COMBINATIONS,
+                f"{name}: {len(recipes)} items give {count} combinations, at least {COMBINATIONS}")
     scene = options.work / "scene.yaml"
     scene.write_text(SCENE)
     text = run(options.ensemble, "report", scene, "--json", options.work / "report.json",
@@ -74,11 +75,13 @@ def main():
     ratio = stored["tagged_bytes"] / stored["lower_bound_bytes"]
     require(ratio <= BYTES, f"tagged stores {ratio:.3f} times templates and items once, at most {BYTES}")
     times = stored["prefitted_bytes"] / stored["tagged_bytes"]
-    require(abs(times - stored["prefitted_vs_tagged"]) < 0.01, f"the report says that pre-fitted needs {times:.1f} times tagged")
+    require(abs(times - stored["prefitted_vs_tagged"]) < 0.01,
+            f"the report says that pre-fitted needs {times:.1f} times as much as tagged")
     require(f"{times:.2f} times as much as tagged" in (options.work / "report.html").read_text(), "so does its page")
     drawn = json.loads(run(options.ensemble, "render", scene, "-o", options.work / "crowd.png", "-q", "--json", "-",
                            "--annotations", options.work / "seen.json"))
-    require(drawn["frames"][0]["characters_drawn"] == PEOPLE, f"{drawn['frames'][0]['characters_drawn']} people are drawn")
+    characters = drawn["frames"][0]["characters_drawn"]
+    require(characters == PEOPLE, f"{characters} people are drawn")
     seen = json.loads((options.work / "seen.json").read_text())["frames"][0]["people"]
     dressed = {person["outfit"] for person in seen}
     require(len(dressed) >= WORN, f"{len(seen)} people can be seen, in {len(dressed)} combinations, at least {WORN}")
