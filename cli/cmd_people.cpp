@@ -35,7 +35,7 @@ nlohmann::ordered_json figuresOf(const MadePerson& person) {
                                     {"outfits", nlohmann::ordered_json::array()}};
   for (const MadeOutfit& made : person.outfits) {
     nlohmann::ordered_json entry = {{"name", made.recipe.name},
-                                    {"slot", made.recipe.slot},
+                                    {"slot", toString(made.recipe.slot)},
                                     {"layer", made.recipe.layer},
                                     {"garments", nlohmann::ordered_json::array()}};
     for (const GarmentFigures& garment : made.outfit.garments)

@@ -199,5 +199,20 @@ TEST_F(CommandLine, TagReportInspectAddRemove) {
   EXPECT_EQ(run("add w tunic.glb").exit_code, 3);
 }
 
+TEST_F(CommandLine, PeopleAreToldAsTheyAreWritten) {
+  writeFileAtomically(folder_ / "p.yaml",
+                      std::string_view("version: 1\npeople:\n  - {name: ann, sex: female, "
+                                       "faces: 1500, outfits: [hair_short]}\n"));
+  const ProgramResult made = run("people p.yaml -o out -q --json -");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const nlohmann::json told = nlohmann::json::parse(made.out);
+  const nlohmann::json& outfit = told["people"][0]["outfits"][0];
+  EXPECT_EQ(outfit["name"], "hair_short");
+  EXPECT_EQ(outfit["slot"], "hair");
+  EXPECT_GT(outfit["garments"][0]["faces"], 100);
+  EXPECT_NO_THROW(readGltf(folder_ / "out/ann/template.glb"));
+  EXPECT_NO_THROW(readGltf(folder_ / "out/ann/outfits/hair_short.glb"));
+}
+
 }  // namespace
 }  // namespace ensemble
