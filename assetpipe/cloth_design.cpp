@@ -32,10 +32,13 @@ void addSolid(const SolidFrame& at, const SolidRecipe& recipe, float mirror, Sol
   const Vec3 flip(mirror, 1.0f, 1.0f);
   const float blend = recipe.blend * at.size;
   if (recipe.shape == SolidRecipe::Shape::kCone) {
-    group.join(
-        Solid::roundCone(at.origin + recipe.from * flip * at.scale, at.origin + recipe.to * flip * at.scale,
-                         recipe.ends[0] * at.size, recipe.ends[1] * at.size),
-        blend);
+    const Vec3 from = at.origin + recipe.from * flip * at.scale, to = at.origin + recipe.to * flip * at.scale;
+    const float r0 = recipe.ends[0] * at.size, r1 = recipe.ends[1] * at.size;
+    // On a flat head one end may come to lie inside the other.
+    const bool is_ball = glm::distance(from, to) < 1.001f * std::abs(r0 - r1);
+    group.join(is_ball ? Solid::ellipsoid(r0 > r1 ? from : to, Vec3(std::max(r0, r1)), Mat3(1.0f))
+                       : Solid::roundCone(from, to, r0, r1),
+               blend);
     return;
   }
   group.join(

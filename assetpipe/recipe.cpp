@@ -328,6 +328,7 @@ void readLooks(const YamlValue& value, const std::filesystem::path& folder, Garm
 GarmentRecipe readGarment(const YamlValue& value, const std::filesystem::path& folder, Slot slot) {
   GarmentRecipe garment;
   garment.mark = value.mark();
+  if (!value.isMap()) value.fail(value.description(), "give a map: {name: NAME, kind: body, ...}");
   const auto name = value.find("name");
   const auto kind = value.find("kind");
   if (!name || !kind) {

@@ -403,6 +403,11 @@ TEST(Recipe, RefusalsSayWhereWhatAndHowToMend) {
   }
 }
 
+TEST(Recipe, AGarmentIsAMap) {
+  EXPECT_EQ(messageOf("version: 1\nname: a\nslot: upper\ngarments: [shirt]\n"),
+            "r.yaml: 4:12: garments.0 is 'shirt'; give a map: {name: NAME, kind: body, ...}");
+}
+
 TEST(Recipe, InfinityIsAName) {
   for (const std::string word : {"inf", "nan", "infinity"}) {
     std::string text = kGood;

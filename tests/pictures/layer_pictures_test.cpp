@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 
 #include "assetpipe/author_outfit.h"
@@ -19,6 +17,7 @@
 #include "core/gltf_file.h"
 #include "core/layers.h"
 #include "renderer/renderer.h"
+#include "tests/pictures/all_sides.h"
 #include "tests/support/garment_pixels.h"
 #include "tests/support/temporary_folder.h"
 
@@ -35,8 +34,6 @@ constexpr std::uint32_t kSize = 256;
 /// boots, or a sleeve before a waistcoat, are not covered.
 constexpr float kPokeDepth = 0.1f;
 
-bool isFull() { return std::getenv("ENSEMBLE_FULL_TESTS") != nullptr; }
-
 using Names = std::vector<std::string>;
 
 /// What people wear; `scripts/test.sh --full` tries more.
@@ -44,7 +41,7 @@ std::vector<Names> combinations() {
   std::vector<Names> all = {{"trousers", "tshirt", "jacket", "hair_bob", "cap"},
                             {"trousers", "shirt", "coat", "boots", "hair_bob"},
                             {"skirt", "hoodie", "boots", "hair_bob", "cap"}};
-  if (!isFull()) return all;
+  if (!testing::isFull()) return all;
   all.push_back({"jeans", "shirt", "jacket", "shoes", "hair_long", "hat"});
   all.push_back({"jeans", "jumper", "coat", "boots", "hair_short", "cap"});
   all.push_back({"leggings", "tshirt", "hivis_vest", "boots", "hair_ponytail", "hat"});
@@ -127,43 +124,25 @@ class LayerPictures : public ::testing::TestWithParam<std::string> {
     return isWornOver({out.slot, out.layer}, {in.slot, in.layer});
   }
 
-  /// One person from sides that lie evenly over the sphere.
-  static std::vector<View> views(const Scene& scene) {
-    const int count = isFull() ? 60 : 12;
-    std::vector<View> views;
-    for (int i = 0; i < count; ++i) {
-      View view = viewOf(scene);
-      const float up = 1.0f - (2.0f * static_cast<float>(i) + 1.0f) / static_cast<float>(count);
-      const float out = std::sqrt(1.0f - up * up), turn = 2.399963f * static_cast<float>(i);
-      view.camera.target = Vec3(0.0f, 0.9f, 0.0f);
-      view.camera.position = view.camera.target + 4.0f * Vec3(out * std::cos(turn), up, out * std::sin(turn));
-      view.aovs = {Aov::kCharacter, Aov::kRegion, Aov::kFace, Aov::kDepth};
-      views.push_back(view);
-    }
-    return views;
-  }
-
   struct Shots {
     std::vector<Picture> pictures;
     std::vector<std::vector<std::optional<testing::GarmentPixel>>> garments;  ///< per picture and pixel
   };
-  /// @param moment keys of the person: clip and phase
-  Shots draw(const std::vector<Wardrobe>& wardrobe, const Names& worn, const std::string& moment,
+  /// A time of a clip.
+  struct Moment {
+    std::string clip;
+    double seconds = 0.0;
+  };
+  Shots draw(const std::vector<Wardrobe>& wardrobe, const Names& worn, const Moment& moment,
              Technique technique) {
-    std::string list;
-    for (const std::string& name : worn) list += (list.empty() ? "" : ", ") + name;
-    const std::string text =
-        std::string("version: 1\nwardrobe: w\ntechnique: ") + toString(technique) +
-        "\noutput: {width: " + std::to_string(kSize) + ", height: " + std::to_string(kSize) +
-        ", samples: 1, background: transparent}\nlight: {shadows: false}\ncamera: {position: [0, 1, 4], "
-        "target: [0, 0.9, 0], fov_y: 30}\npeople:\n  - {wears: [" +
-        list + "], " + moment + ", position: [0, 0, 0], heading: 0}\n";
-    const Scene scene = parseScene(text, folder_ / "scene.yaml");
+    std::string outfit;
+    for (const std::string& name : worn) outfit += (outfit.empty() ? "" : "+") + name;
+    const Scene scene = testing::sceneOfOne(outfit, moment.clip, technique, kSize);
     renderer_.load(scene, wardrobe);
-    const std::vector<View> sides = views(scene);
+    const std::vector<View> sides = testing::viewsFromAllSides(scene);
     Shots shots;
     shots.pictures.resize(sides.size());
-    renderer_.render(sides, 0.0, shots.pictures);
+    renderer_.render(sides, moment.seconds, shots.pictures);
     for (const Picture& picture : shots.pictures) {
       auto& garments = shots.garments.emplace_back();
       for (std::size_t p = 0; p < picture.character.size(); ++p) {
@@ -228,7 +207,7 @@ class LayerPictures : public ::testing::TestWithParam<std::string> {
     }
   }
 
-  Tally look(const Names& names, const std::string& moment) {
+  Tally look(const Names& names, const Moment& moment) {
     Combination worn;
     for (const std::string& name : names) worn.push_back(itemOf(name));
     std::sort(worn.begin(), worn.end());
@@ -267,10 +246,9 @@ TEST_P(LayerPictures, InnerItemsHardlyShowThroughOuterOnes) {
   for (const Names& names : combinations()) {
     Tally one;
     for (const Clip& clip : plain_[0].body.clips) {
-      const int steps = isFull() ? static_cast<int>(clip.key_count - 1) / 8 : 3;
+      const int steps = testing::isFull() ? static_cast<int>(clip.key_count - 1) / 8 : 3;
       for (int step = 0; step < steps; ++step) {  // between key frames, too
-        const double phase = (step + 0.3) / steps;
-        one.add(look(names, "clip: " + clip.name + ", speed: 0, phase: " + std::to_string(phase)));
+        one.add(look(names, {clip.name, (step + 0.3) / steps * double{clip.seconds}}));
       }
     }
     std::string list;
