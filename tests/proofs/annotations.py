@@ -60,9 +60,13 @@ def boxesAndCounts(rows):
     return {number: ([x0, y0, x1 - x0 + 1, y1 - y0 + 1], count) for number, (x0, y0, x1, y1, count) in found.items()}
 
 
+def outfitsOf(wardrobe):
+    return [outfit["name"] for outfit in json.loads((wardrobe / "wardrobe.json").read_text())["outfits"]]
+
+
 def proveShares(options, name, wardrobe, work):
     """A group, and each of its people alone in the same picture."""
-    outfits = [outfit["name"] for outfit in json.loads((wardrobe / "wardrobe.json").read_text())["outfits"]]
+    outfits = outfitsOf(wardrobe)
     people = [{"outfit": outfits[i % len(outfits)], "position": [0.55 * (i % 4) - 0.8, 0, 0.6 * (i // 4)],
                "heading": 40 * i % 360, "phase": i / 8} for i in range(8)]
     scene = {"version": 1, "wardrobe": str(wardrobe), "ground": False, "people": people,
@@ -120,7 +124,8 @@ def proveFeet(options, name, wardrobe, work):
     """Three people on a closed path with turns and stops, half a minute."""
     scene = {"version": 1, "wardrobe": str(wardrobe),
              "output": {"width": 320, "height": 180, "samples": 1, "frames": 900 if options.full else 360, "fps": 30},
-             "crowd": {"count": 3, "seed": 3, "placement": {"kind": "paths", "spacing": 2, "paths": [
+             "crowd": {"count": 3, "seed": 3, "outfits": dict.fromkeys(outfitsOf(wardrobe), 1),
+                       "placement": {"kind": "paths", "spacing": 2, "paths": [
                  {"points": [[-3, 0, -3], [3, 0, -3], [3, 0, 3], [-2, 0, 2]], "closed": True,
                   "stops": [{"at": 4, "seconds": 1.5}, {"at": 9, "seconds": 1}]}]}},
              "camera": {"position": [0, 9, 9], "target": [0, 0, 0]}, "light": {"shadows": False}}
