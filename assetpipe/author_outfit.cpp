@@ -162,17 +162,17 @@ AuthoredOutfit authorOutfit(const Recipe& recipe, const RawAsset& asset, const A
       nlohmann::ordered_json({{"ensemble", {{"slot", toString(recipe.slot)}, {"layer", recipe.layer}}}})
           .dump();
   const TailorFrame frame(body, marks);
-  std::vector<ClothBelow> below;
+  std::vector<ClothPiece> below;
   std::vector<std::uint32_t> mains;  // the cloth's own materials so far
   for (const GarmentRecipe& garment : recipe.garments) {
-    FieldMesh mesh = meshCloth(frame, garment, designCloth(frame, garment), below);
-    if (mesh.faces.empty()) {
+    ClothPiece cloth = meshCloth(frame, garment, designCloth(frame, garment), below);
+    if (cloth.mesh.faces.empty()) {
       failAt(recipe, garment.mark, "garment '" + garment.name + "' has no cloth left on this template",
              "look at its openings: hem, top, neck, cuts");
     }
     RawMeshNode node;
     node.name = "garment." + garment.name;
-    node.primitives = sewCloth(frame, garment, mesh);
+    node.primitives = sewCloth(frame, garment, cloth);
     const auto first = static_cast<std::uint32_t>(outfit.asset.materials.size());
     std::vector<RawMaterial> materials = makeMaterials(garment, outfit.asset.images);
     const auto same = sameCloth(outfit.asset.materials, mains, materials[0]);
@@ -183,10 +183,9 @@ AuthoredOutfit authorOutfit(const Recipe& recipe, const RawAsset& asset, const A
     }
     if (!same) mains.push_back(first);
     outfit.asset.materials.insert(outfit.asset.materials.end(), materials.begin(), materials.end());
-    outfit.garments.push_back(figuresOf(garment, mesh, node, body.surface()));
+    outfit.garments.push_back(figuresOf(garment, cloth.mesh, node, body.surface()));
     warnAbout(recipe, outfit);
-    std::vector<SkinBinding> skins = weighCloth(frame, garment, mesh);
-    below.push_back({std::move(mesh), std::move(skins)});
+    below.push_back(std::move(cloth));
     outfit.asset.meshes.push_back(std::move(node));
   }
   return outfit;

@@ -28,6 +28,15 @@ std::vector<PosedBody> poseInClips(const TemplateBody& body, const BodySurface& 
   return poses;
 }
 
+std::vector<Vec3> posedPositions(std::span<const Vec3> positions, std::span<const SkinBinding> skins,
+                                 std::span<const Mat4> skinning_matrices) {
+  std::vector<Vec3> posed;
+  posed.reserve(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    posed.push_back(skinPosition(positions[v], skins[v], skinning_matrices));
+  return posed;
+}
+
 float heightOver(const PosedBody& posed, const BodySurface& surface, const NearestPoint& below,
                  const Vec3& point) {
   const Triangle& face = surface.faces()[below.face];

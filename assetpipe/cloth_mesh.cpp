@@ -10,7 +10,6 @@
 #include "assetpipe/fit_in_motion.h"
 #include "assetpipe/simplify_surface.h"
 #include "core/check.h"
-#include "core/clip.h"
 
 namespace ensemble {
 namespace {
@@ -60,30 +59,28 @@ void labelTrims(FieldMesh& mesh, const ClothDesign& design) {
 }
 
 /// Poses of a garment as of a body.
-std::vector<PosedBody> poseCloth(const ClothBelow& cloth, const BodySurface& surface,
+std::vector<PosedBody> poseCloth(const ClothPiece& cloth, const BodySurface& surface,
                                  const std::vector<PosedBody>& poses) {
+  std::vector<Vec3> positions;
+  std::vector<SkinBinding> skins;
+  for (const std::uint32_t source : surface.source()) {
+    positions.push_back(cloth.mesh.positions[source]);
+    skins.push_back(cloth.skins[source]);
+  }
   std::vector<PosedBody> result;
   for (const PosedBody& pose : poses) {
-    PosedBody posed;
-    for (const std::uint32_t source : surface.source()) {
-      RawVertex vertex;
-      vertex.position = cloth.mesh.positions[source];
-      vertex.skin = cloth.skins[source];
-      posed.positions.push_back(skinPosition(vertex, pose.skinning_matrices));
-    }
-    posed.skinning_matrices = pose.skinning_matrices;
-    result.push_back(std::move(posed));
+    result.push_back({pose.skinning_matrices, posedPositions(positions, skins, pose.skinning_matrices)});
   }
   return result;
 }
 
 /// Lifts cloth off body and garments below, at rest and in motion.
-void fitToWear(const TailorFrame& frame, const GarmentRecipe& recipe, std::span<const ClothBelow> below,
+void fitToWear(const TailorFrame& frame, const GarmentRecipe& recipe, std::span<const ClothPiece> below,
                FieldMesh& mesh) {
   const std::vector<PosedBody>& poses = frame.body().poses();
   std::vector<std::unique_ptr<BodySurface>> surfaces;
   std::vector<std::vector<PosedBody>> posed;
-  for (const ClothBelow& cloth : below) {
+  for (const ClothPiece& cloth : below) {
     surfaces.push_back(std::make_unique<BodySurface>(cloth.mesh.positions, cloth.mesh.faces));
     posed.push_back(poseCloth(cloth, *surfaces.back(), poses));
     fitOverCloth(mesh, *surfaces.back(), kClearance);
@@ -98,8 +95,8 @@ void fitToWear(const TailorFrame& frame, const GarmentRecipe& recipe, std::span<
 
 }  // namespace
 
-FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothDesign& design,
-                    std::span<const ClothBelow> below) {
+ClothPiece meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothDesign& design,
+                     std::span<const ClothPiece> below) {
   FieldMesherOptions mesher;
   mesher.low = design.low;
   mesher.high = design.high;
@@ -110,7 +107,7 @@ FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const
     return std::max(design.shell(p), design.opening(p) - room);
   };
   FieldMesh mesh = meshField(meshed, mesher);
-  if (mesh.faces.empty()) return mesh;
+  if (mesh.faces.empty()) return {};
   snapToBorder(mesh, design.shell, design.opening, mesher.cell);
   std::vector<std::uint8_t> keep(mesh.faces.size());
   for (std::size_t f = 0; f < keep.size(); ++f)
@@ -122,7 +119,8 @@ FieldMesh meshCloth(const TailorFrame& frame, const GarmentRecipe& recipe, const
   mesh = simplifySurface(mesh, design.shell, simplify);
   fitOverBody(mesh, frame.body().surface(), kClearance);
   if (recipe.kind != GarmentKind::kHead) fitToWear(frame, recipe, below, mesh);
-  return mesh;
+  std::vector<SkinBinding> skins = weighCloth(frame, recipe, mesh);
+  return {std::move(mesh), std::move(skins)};
 }
 
 namespace {
@@ -158,15 +156,15 @@ struct Chart {
 
 class Sewer {
  public:
-  Sewer(const TailorFrame& frame, const GarmentRecipe& recipe, const FieldMesh& mesh)
+  Sewer(const TailorFrame& frame, const GarmentRecipe& recipe, const ClothPiece& cloth)
       : frame_(frame),
         recipe_(recipe),
-        mesh_(mesh),
-        skins_(weighCloth(frame, recipe, mesh)),
+        mesh_(cloth.mesh),
+        skins_(cloth.skins),
         primitives_(recipe.trims.size() + 1),
-        normals_(mesh.positions.size(), Vec3(0.0f)),
-        outwards_(mesh.positions.size(), Vec3(0.0f)) {
-    for (const Triangle& face : mesh.faces) {
+        normals_(mesh_.positions.size(), Vec3(0.0f)),
+        outwards_(mesh_.positions.size(), Vec3(0.0f)) {
+    for (const Triangle& face : mesh_.faces) {
       const Vec3 area = glm::cross(at(face[1]) - at(face[0]), at(face[2]) - at(face[0]));
       for (const std::uint32_t v : face) normals_[v] += area;
     }
@@ -317,7 +315,7 @@ class Sewer {
   const TailorFrame& frame_;
   const GarmentRecipe& recipe_;
   const FieldMesh& mesh_;
-  std::vector<SkinBinding> skins_;
+  const std::vector<SkinBinding>& skins_;
   std::vector<RawPrimitive> primitives_;
   std::vector<Vec3> normals_, outwards_;
   std::map<std::tuple<std::uint8_t, std::uint32_t, std::uint32_t, std::uint32_t, int>, std::uint32_t> known_;
@@ -326,8 +324,8 @@ class Sewer {
 }  // namespace
 
 std::vector<RawPrimitive> sewCloth(const TailorFrame& frame, const GarmentRecipe& recipe,
-                                   const FieldMesh& mesh) {
-  return Sewer(frame, recipe, mesh).run();
+                                   const ClothPiece& cloth) {
+  return Sewer(frame, recipe, cloth).run();
 }
 
 }  // namespace ensemble

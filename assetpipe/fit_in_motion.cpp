@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "assetpipe/fit_over_body.h"
-#include "core/clip.h"
 
 namespace ensemble {
 namespace {
@@ -34,18 +33,6 @@ std::vector<CoveredPoint> findCovered(const BodySurface& cloth, const BodySurfac
   return covered;
 }
 
-std::vector<Vec3> posed(const FieldMesh& cloth, const std::vector<SkinBinding>& skins,
-                        const PosedBody& pose) {
-  std::vector<Vec3> positions;
-  for (std::size_t v = 0; v < cloth.positions.size(); ++v) {
-    RawVertex vertex;
-    vertex.position = cloth.positions[v];
-    vertex.skin = skins[v];
-    positions.push_back(skinPosition(vertex, pose.skinning_matrices));
-  }
-  return positions;
-}
-
 }  // namespace
 
 bool liftInMotion(FieldMesh& cloth, const std::vector<SkinBinding>& skins, const BodySurface& body,
@@ -55,7 +42,7 @@ bool liftInMotion(FieldMesh& cloth, const std::vector<SkinBinding>& skins, const
   const std::vector<CoveredPoint> covered = findCovered(surface, body);
   std::vector<float> lifts(surface.positions().size(), 0.0f);
   for (const PosedBody& pose : poses) {
-    const std::vector<Vec3> moved = posed(cloth, skins, pose);
+    const std::vector<Vec3> moved = posedPositions(cloth.positions, skins, pose.skinning_matrices);
     for (const CoveredPoint& point : covered) {
       const Triangle& face = surface.faces()[point.cloth.face];
       const Vec3 &a = moved[surface.source()[face[0]]], &b = moved[surface.source()[face[1]]],

@@ -121,8 +121,9 @@ void requireSoundBody(const std::string& person, const FieldMesh& mesh) {
                     "give it more faces, or less extreme measures"});
 }
 
-RawAsset makeTemplatePerson(const PersonConfig& config) {
-  const Figure figure = makeFigure(config.figure);
+namespace {
+
+RawAsset makeTemplate(const PersonConfig& config, const Figure& figure) {
   const FieldMesh mesh = makeBodyMesh(figure, config.body_faces);
   requireSoundBody(config.name, mesh);
   const Field body = [&figure](const Vec3& p) { return figure.body(p); };
@@ -140,11 +141,17 @@ RawAsset makeTemplatePerson(const PersonConfig& config) {
   return asset;
 }
 
+}  // namespace
+
+RawAsset makeTemplatePerson(const PersonConfig& config) {
+  return makeTemplate(config, makeFigure(config.figure));
+}
+
 MadePerson makePerson(const PersonConfig& config, unsigned jobs) {
   MadePerson person;
   person.name = config.name;
-  person.body = makeTemplatePerson(config);
   const Figure figure = makeFigure(config.figure);
+  person.body = makeTemplate(config, figure);
   person.walk_speed = walkSpeed(figure);
   person.run_speed = runSpeed(figure);
   std::vector<Recipe> recipes;

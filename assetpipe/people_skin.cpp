@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/color.h"
 #include "core/image_file.h"
 
 namespace ensemble {
@@ -20,10 +21,6 @@ constexpr float kSoft = 0.0007f;                // metres, about a texel
 float cover(float inside, float soft = kSoft) { return smoothStep(-soft, soft, inside); }
 
 float bump(float x, float width) { return std::exp(-x * x / (width * width)); }
-
-float srgbOf(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
 
 /// Paints one texel: layers of colour over skin.
 class FacePaint {
@@ -179,7 +176,7 @@ RawImage paintHead(const Figure& figure, const PersonColors& colors) {
       const Vec3 color = paint.at(part * kPi, y);
       for (const std::uint32_t x : {kSide / 2 + column, kSide / 2 - 1 - column}) {
         for (int i = 0; i < 3; ++i) {
-          const float value = std::clamp(srgbOf(color[i]) * 255.0f + 0.5f, 0.0f, 255.0f);
+          const float value = std::clamp(srgbFromLinear(color[i]) * 255.0f + 0.5f, 0.0f, 255.0f);
           image.rgba[4 * (std::size_t{row} * kSide + x) + static_cast<std::size_t>(i)] =
               static_cast<std::uint8_t>(value);
         }

@@ -15,8 +15,8 @@
 #include "assetpipe/outfit_properties.h"
 #include "assetpipe/painted_faces.h"
 #include "assetpipe/segment.h"
+#include "assetpipe/tag_warnings.h"
 #include "assetpipe/unmatched_parts.h"
-#include "core/box.h"
 #include "core/check.h"
 #include "core/input_error.h"
 
@@ -24,7 +24,6 @@ namespace ensemble {
 namespace {
 
 constexpr float kJointTolerance = 0.001f;  // metres
-constexpr float kFarGarment = 0.25f;       // metres from the body's box
 
 /// A primitive of the outfit that is body.
 struct BodyPrimitive {
@@ -81,9 +80,7 @@ class OutfitTagger {
     applyOverrides();
     explain();
     item_.tags = tagRegions(body_, item_.visible, item_.extra_body);
-    warnIfComplete();
-    warnIfNothingShows();
-    warnOfFarGarments();
+    warnAbout(item_, body_, own_.occlusion, holes_ ? &*holes_ : nullptr, options_.hidden, warnings_);
     return std::move(item_);
   }
 
@@ -366,64 +363,6 @@ class OutfitTagger {
       warnings_.push_back(
           "--explain has nothing to tell: its author chose the hidden faces, none were looked "
           "for; ask for --auto-occlusion");
-    }
-  }
-
-  void warnIfComplete() const {
-    const bool complete =
-        std::all_of(item_.visible.begin(), item_.visible.end(), [](std::uint8_t v) { return v != 0; });
-    if (!complete) return;
-    warnings_.push_back(
-        own_.occlusion == Occlusion::kAuthored
-            ? "its body is complete, so nothing is hidden under the clothes; remove the faces that "
-              "they hide before exporting, or let --auto-occlusion find them"
-        : wouldHideWithItsBacks() ? "its clothes hide no face of the body, but would if the backs of their "
-                                    "faces were drawn; turn the faces "
-                                    "to the outside, or make the materials double-sided"
-                                  : "its clothes hide no face of the body");
-  }
-
-  /// Whether single-sided clothes look the wrong way.
-  bool wouldHideWithItsBacks() const {
-    const auto hidden = [&](const Item& worn) {
-      const Item* const item = &worn;
-      const FaceHoles found = findHoles(body_, std::span(&item, 1), options_.hidden);
-      return std::count_if(found.faces.begin(), found.faces.end(),
-                           [](const FaceHole& face) { return !face.is_kept; });
-    };
-    Item both_sided = item_;
-    bool is_other = false;
-    for (const Garment& garment : item_.garments) {
-      for (const ItemPart& part : garment.parts) {
-        RawMaterial& material = both_sided.materials[part.material];
-        is_other = is_other || !material.double_sided;
-        material.double_sided = true;
-      }
-    }
-    return is_other && hidden(both_sided) > hidden(item_);
-  }
-
-  /// Right in itself, but hardly meant; as the next.
-  void warnIfNothingShows() const {
-    if (item_.visibleBodyFaceCount() > 0) return;
-    warnings_.push_back("nothing of the body shows under it; if that is not meant, look at --explain");
-  }
-
-  void warnOfFarGarments() const {
-    Box body;
-    for (const RawVertex& vertex : body_.vertices) body.add(vertex.position);
-    for (const Garment& garment : item_.garments) {
-      Box box;
-      for (const ItemPart& part : garment.parts) {
-        for (const RawVertex& vertex : part.vertices) box.add(vertex.position);
-      }
-      if (box.empty()) continue;
-      const Vec3 gap = glm::max(glm::max(box.low - body.high, body.low - box.high), Vec3(0.0f));
-      const float distance = glm::length(gap);
-      if (distance < kFarGarment) continue;
-      warnings_.push_back(
-          fmt::format("garment '{}' lies {:.2f} m from the body; is it in other units, or elsewhere?",
-                      garment.name, distance));
     }
   }
 

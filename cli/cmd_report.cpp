@@ -41,9 +41,8 @@ std::string toText(const LayerFigures& layers) {
   if (layers.pairs == 0) return "";
   const double faces = static_cast<double>(std::max<std::uint64_t>(layers.garment_faces, 1));
   return fmt::format(
-      "{} {} worn over one another; of the garments' faces {:.1f} % are hidden so, and "
-      "{:.1f} % "
-      "are not drawn, in {} lists\n",
+      "{} {} worn over one another; of the garments' faces {:.1f} % are hidden so, and {:.1f} % are not "
+      "drawn, in {} lists\n",
       layers.pairs, layers.pairs == 1 ? "pair of items is" : "pairs of items are",
       100.0 * static_cast<double>(layers.hidden_faces) / faces,
       100.0 * static_cast<double>(layers.garment_faces - layers.drawn_faces) / faces, layers.lists);
@@ -52,8 +51,8 @@ std::string toText(const LayerFigures& layers) {
 void runScene(const ReportArguments& arguments) {
   const Scene scene = loadSceneOf({.scene = arguments.wardrobe, .overrides = arguments.overrides});
   std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
-  findLayersOf(scene, wardrobes);
   const std::vector<WornCombinations> worn = wornIn(scene, wardrobes);
+  findLayersOf(worn, wardrobes);
   nlohmann::ordered_json parts = nlohmann::ordered_json::array();
   CombinationStorage total;
   LayerFigures layers;

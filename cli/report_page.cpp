@@ -256,6 +256,17 @@ void addCombinations(HtmlPage& page, const Json& figures) {
                 {storedRow(figures["wardrobe"], count, stored)});
 }
 
+/// What items hide of one another.
+void addLayers(HtmlPage& page, const Json& layers) {
+  if (layers["pairs"].get<std::uint64_t>() == 0) return;
+  page.addHeading("Worn over one another");
+  page.addTable("The garments' faces, each combination's once",
+                {"pairs of items", "faces", "hidden", "drawn", "index lists"},
+                {{countText(layers["pairs"]), countText(layers["garment_faces"]),
+                  countText(layers["hidden_garment_faces"]), countText(layers["drawn_garment_faces"]),
+                  countText(layers["garment_lists"])}});
+}
+
 }  // namespace
 
 std::string sceneReportPage(const Json& figures) {
@@ -275,6 +286,7 @@ std::string sceneReportPage(const Json& figures) {
   if (rows.size() > 1)
     rows.push_back(storedRow("in all", countText(figures["combinations"]), figures["stored"]));
   page.addTable("What the combinations that people wear store, in bytes", kStoredHeader, rows);
+  addLayers(page, figures["layers"]);
   return page.text();
 }
 

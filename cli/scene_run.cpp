@@ -46,10 +46,12 @@ std::vector<WornCombinations> wornIn(const Scene& scene, std::span<const Wardrob
 void findLayersOf(const Scene& scene, std::span<Wardrobe> wardrobes) {
   const auto has_pairs = [](const Wardrobe& wardrobe) { return !allLayerPairs(wardrobe).empty(); };
   if (std::none_of(wardrobes.begin(), wardrobes.end(), has_pairs)) return;  // nobody wears one over another
-  const std::vector<WornCombinations> worn = wornIn(scene, wardrobes);
-  for (std::size_t w = 0; w < wardrobes.size(); ++w) {
+  findLayersOf(wornIn(scene, wardrobes), wardrobes);
+}
+
+void findLayersOf(std::span<const WornCombinations> worn, std::span<Wardrobe> wardrobes) {
+  for (std::size_t w = 0; w < wardrobes.size(); ++w)
     findLayers(wardrobes[w], layerPairs(wardrobes[w], worn[w].combinations));
-  }
 }
 
 std::optional<EnvironmentMesh> loadEnvironment(const Scene& scene) {

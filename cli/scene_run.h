@@ -41,6 +41,8 @@ std::vector<WornCombinations> wornIn(const Scene& scene, std::span<const Wardrob
 /// Finds what the items that a scene's people wear hide of one another (assetpipe/find_layers.h).
 /// @throws as populateCrowd and findLayers
 void findLayersOf(const Scene& scene, std::span<Wardrobe> wardrobes);
+/// The same of what they are known to wear. @param worn as wornIn returns it @throws as findLayers
+void findLayersOf(std::span<const WornCombinations> worn, std::span<Wardrobe> wardrobes);
 
 /// The environment of a scene, if it has one; logs what of it is not used.
 /// @throws as loadEnvironmentMesh

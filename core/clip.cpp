@@ -255,15 +255,19 @@ std::vector<Transform> restPose(const RawSkeleton& skeleton) {
 }
 
 Vec3 skinPosition(const RawVertex& vertex, std::span<const Mat4> skinning_matrices) {
+  return skinPosition(vertex.position, vertex.skin, skinning_matrices);
+}
+
+Vec3 skinPosition(const Vec3& position, const SkinBinding& skin, std::span<const Mat4> skinning_matrices) {
   Vec3 result(0.0f);
   float sum = 0.0f;
   for (std::size_t i = 0; i < 4; ++i) {
-    const float weight = vertex.skin.weights[i];
+    const float weight = skin.weights[i];
     if (weight == 0.0f) continue;
-    result += weight * Vec3(skinning_matrices[vertex.skin.joints[i]] * Vec4(vertex.position, 1.0f));
+    result += weight * Vec3(skinning_matrices[skin.joints[i]] * Vec4(position, 1.0f));
     sum += weight;
   }
-  return sum == 0.0f ? vertex.position : result;  // what no joint moves stays
+  return sum == 0.0f ? position : result;  // what no joint moves stays
 }
 
 }  // namespace ensemble

@@ -58,5 +58,6 @@ std::vector<Transform> restPose(const RawSkeleton& skeleton);
 /// A vertex's position under skinning matrices; where no joint moves it, its own. For tools and tests (the
 /// renderer does it on the GPU).
 Vec3 skinPosition(const RawVertex& vertex, std::span<const Mat4> skinning_matrices);
+Vec3 skinPosition(const Vec3& position, const SkinBinding& skin, std::span<const Mat4> skinning_matrices);
 
 }  // namespace ensemble

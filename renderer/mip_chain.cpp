@@ -6,15 +6,10 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "core/color.h"
 
 namespace ensemble {
 namespace {
-
-float linearFromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-
-float srgbFromLinear(float c) {
-  return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-}
 
 const std::array<float, 256>& linearTable() {
   static const std::array<float, 256> table = [] {

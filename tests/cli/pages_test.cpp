@@ -184,13 +184,22 @@ TEST(Pages, AScenesPageShowsItsFigures) {
                   {"people", 5000},
                   {"combinations", 842},
                   {"wardrobes", {part, part}},
-                  {"stored", kStored}};
+                  {"stored", kStored},
+                  {"layers",
+                   {{"pairs", 5},
+                    {"garment_faces", 90'000},
+                    {"hidden_garment_faces", 8'000},
+                    {"drawn_garment_faces", 83'500},
+                    {"garment_lists", 34}}}};
   const std::string page = sceneReportPage(figures);
   expectWholePage(page);
   EXPECT_THAT(page, HasSubstr("<h1>What a crowd's clothes store: a&lt;b.yaml</h1>"));
   EXPECT_THAT(page, HasSubstr("<p>5,000 people in 842 combinations of items."));
   EXPECT_EQ(count(page, "<td>men, 7 people</td><td>3</td>"), 2u);
   EXPECT_EQ(count(page, "<td>in all</td><td>842</td>"), 1u);
+  EXPECT_THAT(page, HasSubstr("<td>5</td><td>90,000</td><td>8,000</td><td>83,500</td><td>34</td>"));
+  figures["layers"]["pairs"] = 0;
+  EXPECT_THAT(sceneReportPage(figures), Not(HasSubstr("Worn over one another")));
   figures["wardrobes"] = {part};
   EXPECT_EQ(count(sceneReportPage(figures), "<td>in all</td>"), 0u);
 }

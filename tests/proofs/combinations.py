@@ -28,7 +28,8 @@ camera: {{position: [0, 30, 50], target: [0, 0, 4], fov_y: 60}}
 
 
 def pickedRecipes():
-    """ITEMS of the recipes, of every slot some: those named here are left out first."""
+    """ITEMS of the recipes, as many as the proof asks for, of every slot some: those named here are left out first.
+    With all 28 tagged stores 1.110 times the items: each item more adds index lists for bodies that show in part."""
     recipes = sorted((PROJECT / "outfits").glob("*.yaml"))
     if len(recipes) < ITEMS:
         fail(f"there are only {len(recipes)} recipes in outfits/")
