@@ -26,6 +26,8 @@ constexpr NumberRange kScaleRange{0.01, 100.0};
 constexpr NumberRange kSpeedRange{0.0, 100.0};
 constexpr NumberRange kShareRange{0.0, 1.0};
 constexpr NumberRange kTimeRange{0.0, 1e6, false, false, "seconds"};
+constexpr NumberRange kPixelRange{0.0, 1e6, false, false, "pixels"};
+constexpr std::uint64_t kMostCache = 1u << 16;  // MiB
 constexpr NumberRange kTurnRange{-1e5, 1e5, false, false, "seconds"};
 
 void readVersion(const YamlValue& root) {
@@ -250,16 +252,29 @@ void readLight(const YamlValue& value, SceneLight& light) {
   if (const auto shadows = value.find("shadows")) light.shadows = shadows->boolean();
 }
 
+void readPoses(const YamlValue& value, ScenePoses& poses) {
+  value.expectKeys({"snap_below", "cache"});
+  if (const auto snap_below = value.find("snap_below"))
+    poses.snap_below = snap_below->numberFloat(kPixelRange);
+  if (const auto cache = value.find("cache"))
+    poses.cache_mib = static_cast<std::uint32_t>(cache->wholeNumber(0, kMostCache));
+}
+
 void readScene(const YamlValue& root, Scene& scene) {
   if (root.kind() == YamlKind::kNull) root.fail("the scene is empty", "begin with 'version: 1'");
-  root.expectKeys({"version", "wardrobe", "technique", "output", "environment", "crowd", "people", "camera",
-                   "light", "ground"});
+  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "poses", "environment", "crowd",
+                   "people", "camera", "light", "ground"});
   readVersion(root);
   readWardrobes(root, scene);
   if (const auto technique = root.find("technique")) {
     scene.technique = kAllTechniques[technique->word({"naive", "prefitted", "tagged"})];
   }
   if (const auto output = root.find("output")) readOutput(*output, scene.output);
+  if (const auto raster = root.find("raster")) {
+    constexpr RasterKind kKinds[] = {RasterKind::kAuto, RasterKind::kPipeline, RasterKind::kCompute};
+    scene.raster = kKinds[raster->word({"auto", "pipeline", "compute"})];
+  }
+  if (const auto poses = root.find("poses")) readPoses(*poses, scene.poses);
   if (const auto environment = root.find("environment")) {
     scene.environment = {scene.file.parent_path() / environment->text("a glTF file"), environment->mark()};
     scene.ground = false;  // A set has a floor of its own; two at y = 0 would flicker.

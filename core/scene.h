@@ -144,6 +144,15 @@ struct SceneLight {
   bool shadows = true;
 };
 
+/// Which rasteriser draws people. kAuto: the faster one for each, by counts and sizes.
+enum class RasterKind : std::uint8_t { kAuto, kPipeline, kCompute };
+
+/// How people are posed.
+struct ScenePoses {
+  float snap_below = 48.0f;       ///< pixels: who is smaller on the screen is shown at the nearest key frame
+  std::uint32_t cache_mib = 256;  ///< of key frames' skinned vertices that are kept from frame to frame
+};
+
 struct SceneWardrobe {
   std::string key;               ///< empty where the scene names only one
   std::filesystem::path folder;  ///< resolved against the scene's folder
@@ -155,6 +164,8 @@ struct Scene {
   std::vector<SceneWardrobe> wardrobes;  ///< at least one
   Technique technique = Technique::kTagged;
   SceneOutput output;
+  RasterKind raster = RasterKind::kAuto;
+  ScenePoses poses;
   SceneCrowd crowd;
   std::vector<ScenePerson> people;
   SceneCamera camera;

@@ -88,6 +88,12 @@ void addLegs(Animation& animation, const RawSkeleton& skeleton) {
 
 }  // namespace
 
+float bodyHeight(const Wardrobe& wardrobe) {
+  Box body;
+  for (const RawVertex& vertex : wardrobe.body.vertices) body.add(vertex.position);
+  return body.empty() ? 0.0f : body.extent().y;
+}
+
 Animation buildAnimation(std::span<const Wardrobe> wardrobes) {
   Animation animation;
   for (const Wardrobe& wardrobe : wardrobes) {
@@ -96,6 +102,7 @@ Animation buildAnimation(std::span<const Wardrobe> wardrobes) {
     animation.first_clip.push_back(static_cast<std::uint32_t>(animation.clips.size()));
     animation.joint_count.push_back(static_cast<std::uint32_t>(boxes.size()));
     addLegs(animation, skeleton);
+    animation.heights.push_back(bodyHeight(wardrobe));
     for (const Clip& clip : wardrobe.body.clips) {
       addClip(animation, skeleton, boxes, clip.key_count, [&](std::uint32_t i) { return clip.key(i); });
       animation.seconds.push_back(clip.seconds);

@@ -22,9 +22,13 @@ struct Animation {
   std::vector<Sphere> bounds;  ///< per clip, model space: holds every vertex of every item at any time
   std::vector<std::uint32_t> first_clip;   ///< per wardrobe: its first clip
   std::vector<std::uint32_t> joint_count;  ///< per wardrobe: with the one that never moves
+  std::vector<float> heights;              ///< per wardrobe: metres, of the body at rest
   std::vector<GpuLegs> legs;               ///< per wardrobe; zeros where no legs were found
   std::vector<std::uint32_t> leg_groups;   ///< of all wardrobes' joints, the unmoving ones too
 };
+
+/// Of a wardrobe's body at rest, metres.
+float bodyHeight(const Wardrobe& wardrobe);
 
 Animation buildAnimation(std::span<const Wardrobe> wardrobes);
 

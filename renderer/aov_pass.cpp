@@ -27,7 +27,7 @@ AovPass::AovPass(const gpu::Device& device, const CrowdLayout& layout, const Cro
 }
 
 void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
-                     const ViewTargets& targets, const View& view) const {
+                     const ViewTargets& targets, const View& view, const std::function<void()>& more) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   using Layout = vk::ImageLayout;
@@ -53,14 +53,26 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
   recordTileViewport(commands, view, targets.tile);
   recordDraws(commands, draw, view);
   commands.endRendering();
+  if (more) {
+    for (const gpu::Image& image : targets.aovs) {
+      gpu::recordBarrier(commands, image,
+                         {.from_stage = Stage::eColorAttachmentOutput,
+                          .to_stage = Stage::eComputeShader,
+                          .from_access = Access::eColorAttachmentWrite,
+                          .to_access = Access::eShaderStorageWrite,
+                          .from = Layout::eColorAttachmentOptimal,
+                          .to = Layout::eGeneral});
+    }
+    more();
+  }
   for (std::size_t i = 0; i < colors.size(); ++i) {
     if (!view.aovs.has(static_cast<Aov>(i))) continue;
     gpu::recordBarrier(commands, targets.aovs[i],
-                       {.from_stage = Stage::eColorAttachmentOutput,
+                       {.from_stage = Stage::eColorAttachmentOutput | Stage::eComputeShader,
                         .to_stage = Stage::eTransfer,
-                        .from_access = Access::eColorAttachmentWrite,
+                        .from_access = Access::eColorAttachmentWrite | Access::eShaderStorageWrite,
                         .to_access = Access::eTransferRead,
-                        .from = Layout::eColorAttachmentOptimal,
+                        .from = more ? Layout::eGeneral : Layout::eColorAttachmentOptimal,
                         .to = Layout::eTransferSrcOptimal});
     targets.aov_readbacks[i].record(commands, targets.aovs[i]);
   }

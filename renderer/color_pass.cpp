@@ -39,7 +39,7 @@ void ColorPass::prepare(std::uint32_t samples) {
 
 void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
                        const ViewTargets& targets, const View& view, VertexCounter& counter,
-                       std::uint32_t counted_pass) const {
+                       std::uint32_t counted_pass, bool keep_depth) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   using Layout = vk::ImageLayout;
@@ -62,7 +62,7 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
     color.resolveImageView = targets.linear.view();
     color.resolveImageLayout = Layout::eColorAttachmentOptimal;
   }
-  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.depth);
+  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.depth, keep_depth);
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = 1,
@@ -78,6 +78,7 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
     draw.environment.pass->recordColor(commands, draw, targets.size.samples, counter);
   recordBackground(commands, draw, view);
   commands.endRendering();
+  if (keep_depth) recordReadableDepth(commands, targets.depth);
   gpu::recordBarrier(commands, targets.linear,
                      {.from_stage = Stage::eColorAttachmentOutput,
                       .to_stage = Stage::eComputeShader,

@@ -27,12 +27,14 @@ struct PlacedList {
   std::uint32_t index_chunk = 0, vertex_chunk = 0;
   std::uint32_t first_index = 0, first_face = 0;
   std::int32_t vertex_offset = 0;
+  std::uint32_t mesh = 0;
 };
 
 /// Where a mesh went.
 struct PlacedMesh {
   std::uint32_t chunk = 0;
   std::int32_t vertex_offset = 0;
+  std::uint32_t number = 0;  ///< in CrowdAssets::meshes
 };
 
 /// Content of a chunk while it is filled.
@@ -148,7 +150,13 @@ class CrowdAssets::Builder {
     }
     std::vector<GpuVertex>& chunk = vertices_.back();
     placed[id.value] =
-        PlacedMesh{static_cast<std::uint32_t>(vertices_.size() - 1), static_cast<std::int32_t>(chunk.size())};
+        PlacedMesh{static_cast<std::uint32_t>(vertices_.size() - 1), static_cast<std::int32_t>(chunk.size()),
+                   static_cast<std::uint32_t>(assets_.meshes_.size())};
+    assets_.meshes_.push_back({.wardrobe = w,
+                               .id = id,
+                               .vertex_chunk = placed[id.value]->chunk,
+                               .first_vertex = static_cast<std::uint32_t>(chunk.size()),
+                               .vertex_count = static_cast<std::uint32_t>(mesh.vertices.size())});
     for (GpuVertex vertex : mesh.vertices) {
       const auto* weights = vertex.weights;
       if ((weights[0] | weights[1] | weights[2] | weights[3]) == 0) {
@@ -205,7 +213,8 @@ class CrowdAssets::Builder {
                                   .vertex_chunk = mesh.chunk,
                                   .first_index = static_cast<std::uint32_t>(chunk.indices.size()),
                                   .first_face = static_cast<std::uint32_t>(chunk.source_faces.size()),
-                                  .vertex_offset = mesh.vertex_offset};
+                                  .vertex_offset = mesh.vertex_offset,
+                                  .mesh = mesh.number};
     chunk.indices.insert(chunk.indices.end(), list.indices.begin(), list.indices.end());
     chunk.source_faces.insert(chunk.source_faces.end(), list.source_faces.begin(), list.source_faces.end());
     return *placed[id.value];
@@ -252,6 +261,7 @@ class CrowdAssets::Builder {
       item.first_index = placed.first_index;
       item.index_count = static_cast<std::uint32_t>(list.indices.size());
       item.vertex_offset = placed.vertex_offset;
+      item.mesh = placed.mesh;
       const std::uint32_t first_number =
           is_body ? 1 : assets_.first_garment_number_ + numbers_[w].first_garment;
       item.gpu = {.material = addMaterial(w, sub_mesh),
@@ -310,13 +320,15 @@ class CrowdAssets::Builder {
   void upload() {
     using Usage = vk::BufferUsageFlagBits;
     for (const std::vector<GpuVertex>& chunk : vertices_) {
-      assets_.vertex_chunks_.push_back(
-          {gpu::uploadBuffer(device_, bytesOf(chunk), Usage::eVertexBuffer, "a buffer of vertices")});
+      VertexChunk& uploaded = assets_.vertex_chunks_.emplace_back();
+      uploaded.vertices = gpu::uploadBuffer(
+          device_, bytesOf(chunk), Usage::eVertexBuffer | Usage::eUniformTexelBuffer, "a buffer of vertices");
+      uploaded.texels = uploaded.vertices.makeTexelView(device_, vk::Format::eR32G32Uint);
     }
     for (const OpenIndexChunk& chunk : indices_) assets_.index_chunks_.push_back(uploadIndices(chunk));
     checkSize(hidden_words_.size() * 4, "the table of hidden faces");
     checkSize(materials_.size() * sizeof(GpuMaterial), "the table of materials");
-    constexpr auto storage = Usage::eStorageBuffer;
+    constexpr auto storage = Usage::eStorageBuffer | Usage::eUniformTexelBuffer;
     assets_.materials_ = gpu::uploadBuffer(device_, bytesOf(materials_), storage, "the materials");
     assets_.tints_ = gpu::uploadBuffer(device_, bytesOf(tintTable()), storage, "the tints");
     assets_.hidden_first_ = gpu::uploadBuffer(device_, bytesOf(hidden_first_), storage, "the hidden faces");
@@ -325,11 +337,11 @@ class CrowdAssets::Builder {
 
   IndexChunk uploadIndices(const OpenIndexChunk& from) {
     using Usage = vk::BufferUsageFlagBits;
+    constexpr auto usage = Usage::eIndexBuffer | Usage::eUniformTexelBuffer;
     IndexChunk chunk;
     chunk.type = from.wide ? vk::IndexType::eUint32 : vk::IndexType::eUint16;
     if (from.wide) {
-      chunk.indices =
-          gpu::uploadBuffer(device_, bytesOf(from.indices), Usage::eIndexBuffer, "a buffer of indices");
+      chunk.indices = gpu::uploadBuffer(device_, bytesOf(from.indices), usage, "a buffer of indices");
     } else {
       std::vector<std::uint16_t> narrow;
       narrow.reserve(from.indices.size());
@@ -337,8 +349,10 @@ class CrowdAssets::Builder {
         ENSEMBLE_CHECK(index <= 0xffffu);
         narrow.push_back(static_cast<std::uint16_t>(index));
       }
-      chunk.indices = gpu::uploadBuffer(device_, bytesOf(narrow), Usage::eIndexBuffer, "a buffer of indices");
+      chunk.indices = gpu::uploadBuffer(device_, bytesOf(narrow), usage, "a buffer of indices");
     }
+    chunk.texels =
+        chunk.indices.makeTexelView(device_, from.wide ? vk::Format::eR32Uint : vk::Format::eR16Uint);
     chunk.source_faces = gpu::uploadBuffer(device_, bytesOf(from.source_faces), Usage::eStorageBuffer,
                                            "the table of source faces");
     return chunk;

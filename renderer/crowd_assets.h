@@ -35,16 +35,27 @@ struct DrawItem {
   DrawState state;
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t vertex_offset = 0;
+  std::uint32_t mesh = 0;  ///< index into CrowdAssets::meshes
   GpuDraw gpu{};
 };
 
+/// Where a mesh is.
+struct DrawMesh {
+  std::uint32_t wardrobe = 0;
+  MeshId id;  ///< in the wardrobe's lists
+  std::uint32_t vertex_chunk = 0, first_vertex = 0, vertex_count = 0;
+};
+
+/// Texel views are for compute shaders.
 struct VertexChunk {
   gpu::Buffer vertices;
+  vk::raii::BufferView texels = nullptr;  ///< two 32-bit words each
 };
 
 struct IndexChunk {
   vk::IndexType type = vk::IndexType::eUint16;
   gpu::Buffer indices;
+  vk::raii::BufferView texels = nullptr;  ///< an index each
   gpu::Buffer source_faces;
 };
 
@@ -74,8 +85,10 @@ class CrowdAssets {
   const std::vector<DrawItem>& items() const { return items_; }
   /// Per combination of the crowd its sub-meshes, ascending.
   const std::vector<std::vector<SubMeshId>>& shown() const { return shown_; }
+  const std::vector<DrawMesh>& meshes() const { return meshes_; }
   const VertexChunk& vertexChunk(std::uint32_t i) const { return vertex_chunks_[i]; }
   const IndexChunk& indexChunk(std::uint32_t i) const { return index_chunks_[i]; }
+  std::size_t vertexChunkCount() const { return vertex_chunks_.size(); }
   std::size_t indexChunkCount() const { return index_chunks_.size(); }
   const gpu::Buffer& materials() const { return materials_; }
   const gpu::Buffer& tints() const { return tints_; }
@@ -89,6 +102,7 @@ class CrowdAssets {
  private:
   class Builder;
   std::vector<DrawItem> items_;
+  std::vector<DrawMesh> meshes_;
   std::vector<std::vector<SubMeshId>> shown_;
   std::vector<VertexChunk> vertex_chunks_;
   std::vector<IndexChunk> index_chunks_;

@@ -12,7 +12,8 @@ constexpr std::initializer_list<vk::DescriptorType> kCrowdBindings = {
     kStorage, vk::DescriptorType::eUniformTexelBuffer, kStorage, kStorage};
 constexpr std::initializer_list<vk::DescriptorType> kAssetBindings = {kStorage, kStorage, kStorage, kStorage,
                                                                       kStorage};
-constexpr auto kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+constexpr auto kStages =
+    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
 
 }  // namespace
 

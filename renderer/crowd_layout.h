@@ -16,6 +16,7 @@ class CrowdLayout {
   const vk::raii::PipelineLayout& pipelineLayout() const { return pipeline_layout_; }
   gpu::DescriptorSets makeViewSets(const gpu::Device& device, std::uint32_t count) const;
   gpu::DescriptorSets makeCrowdSets(const gpu::Device& device, std::uint32_t count) const;
+  const vk::raii::DescriptorSetLayout& assetLayout() const { return assets_; }
   /// Materials and the source faces of an index chunk.
   vk::DescriptorSet assetSet(std::uint32_t index_chunk) const { return asset_sets_[index_chunk]; }
 

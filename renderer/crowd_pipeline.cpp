@@ -47,7 +47,6 @@ constexpr std::array<vk::VertexInputAttributeDescription, 3> kStaticAttributes =
 }};
 constexpr std::array<vk::DynamicState, 3> kDynamic = {vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                                       vk::DynamicState::eCullMode};
-constexpr float kShadowSlopeBias = -1.5f;  // Away from the sun, whose depth is 1.
 
 struct VariantData {
   vk::Bool32 textured, cut_out, hides_faces;

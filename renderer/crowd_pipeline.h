@@ -11,6 +11,8 @@
 
 namespace ensemble {
 
+inline constexpr float kShadowSlopeBias = -1.5f;  ///< away from the sun, whose depth is 1
+
 /// What a pipeline's fragment shader does with a draw state; specialisation constants.
 struct ShaderVariant {
   bool textured = false, cut_out = false, hides_faces = false;

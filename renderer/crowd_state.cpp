@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kReachForPrints = 1.1f;  // of a figure's radius
 constexpr std::uint64_t kJointBytes = 3 * sizeof(vec4);
+constexpr std::uint32_t kNoPose = 0xffffffffu;
 
 constexpr std::initializer_list<vk::DescriptorType> kPoseBindings = {
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
@@ -30,7 +31,8 @@ CrowdState::CrowdState(gpu::Device& device, const Crowd& crowd, const Animation&
     : crowd_(crowd),
       first_clip_(animation.first_clip),
       clip_seconds_(animation.seconds),
-      clip_bounds_(animation.bounds) {
+      clip_bounds_(animation.bounds),
+      key_frames_(numberKeyFrames(animation)) {
   makeCharacters(animation);
   makeChunks(device, animation, max_buffer_bytes);
   texture_ = uploadAnimation(device, animation);
@@ -57,6 +59,7 @@ void CrowdState::makeCharacters(const Animation& animation) {
     setPlace(person.worldFromModel(), animation.bounds[character.clip], person.scale, character,
              bounds_.emplace_back());
     characters_.push_back(character);
+    heights_.push_back(animation.heights[person.wardrobe] * person.scale);
     combinations_.push_back(person.combination);
   }
 }
@@ -92,14 +95,12 @@ void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std
     chunk.characters =
         gpu::Buffer(device, chunk.count * sizeof(GpuCharacter), Usage::eStorageBuffer,
                     gpu::Buffer::Kind::kUpload, fmt::format("a buffer of {} people", chunk.count));
-    std::copy_n(characters_.begin() + chunk.first, chunk.count,
-                chunk.characters.mapped<GpuCharacter>().begin());
     chunk.palette =
         gpu::Buffer(device, chunk_joints * kJointBytes, Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
                     gpu::Buffer::Kind::kDevice, fmt::format("the poses of {} people", chunk.count));
     chunk.palette_view = chunk.palette.makeTexelView(device);
     chunk.pose_queue =
-        gpu::Buffer(device, chunk.count * sizeof(std::uint32_t), Usage::eStorageBuffer,
+        gpu::Buffer(device, chunk.count * sizeof(GpuPoseJob), Usage::eStorageBuffer,
                     gpu::Buffer::Kind::kUpload, fmt::format("the pose queue of {} people", chunk.count));
   }
 }
@@ -125,12 +126,7 @@ void CrowdState::createPipeline(gpu::Device& device) {
                                                                              .pSetLayouts = &*set_layout_,
                                                                              .pushConstantRangeCount = 1,
                                                                              .pPushConstantRanges = &push}));
-  const vk::raii::ShaderModule shader = gpu::makeShader(device, kPoseComp);
-  pipeline_ = ENSEMBLE_VK(vk::raii::Pipeline(
-      device.handle(), nullptr,
-      vk::ComputePipelineCreateInfo{
-          .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
-          .layout = *layout_}));
+  pipeline_ = gpu::makeComputePipeline(device, layout_, kPoseComp);
 }
 
 void CrowdState::setWalker(const Character& person, double seconds, GpuCharacter& character,
@@ -155,28 +151,32 @@ void CrowdState::setWalker(const Character& person, double seconds, GpuCharacter
 }
 
 void CrowdState::setTime(double seconds) {
-  for (const CrowdChunk& chunk : chunks_) {
-    const std::span<GpuCharacter> mapped = chunk.characters.mapped<GpuCharacter>();
-    for (std::uint32_t i = 0; i < chunk.count; ++i) {
-      const Character& person = crowd_.characters[chunk.first + i];
-      if (person.walker) {
-        setWalker(person, seconds, mapped[i], bounds_[chunk.first + i]);
-      } else {
-        mapped[i].phase = phaseAt(seconds, clip_seconds_[mapped[i].clip], person.phase, person.speed);
-      }
+  for (std::uint32_t i = 0; i < characters_.size(); ++i) {
+    const Character& person = crowd_.characters[i];
+    GpuCharacter& character = characters_[i];
+    if (person.walker) {
+      setWalker(person, seconds, character, bounds_[i]);
+    } else {
+      character.phase = phaseAt(seconds, clip_seconds_[character.clip], person.phase, person.speed);
     }
   }
-  has_pose_.assign(characters_.size(), 0);
-  for (CrowdChunk& chunk : chunks_) chunk.pose_queue_length = 0;
+  pose_of_.assign(characters_.size(), kNoPose);
+  for (CrowdChunk& chunk : chunks_) {
+    std::copy_n(characters_.begin() + chunk.first, chunk.count,
+                chunk.characters.mapped<GpuCharacter>().begin());
+    chunk.pose_queue_length = 0;
+  }
 }
 
-std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people) {
+std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown) {
   std::uint32_t queued = 0;
   for (const std::uint32_t person : people) {
-    if (has_pose_[person] != 0) continue;
-    has_pose_[person] = 1;
+    const std::uint32_t key = shown.key(person);
+    const std::uint32_t wanted = key == ViewPeople::kExact ? 0 : 1 + key_frames_.keys[key].first_matrix;
+    if (pose_of_[person] == wanted) continue;
+    pose_of_[person] = wanted;
     CrowdChunk& chunk = chunks_[chunk_of_[person]];
-    chunk.pose_queue.mapped<std::uint32_t>()[chunk.pose_queue_length++] = person - chunk.first;
+    chunk.pose_queue.mapped<GpuPoseJob>()[chunk.pose_queue_length++] = {person - chunk.first, wanted};
     ++queued;
   }
   return queued;
@@ -192,8 +192,7 @@ void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) {
     if (queued == 0) continue;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets_[i], nullptr);
     commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, queued);
-    constexpr std::uint32_t kGroupsX = ENSEMBLE_POSE_GROUPS_X;
-    commands.dispatch(std::min(queued, kGroupsX), (queued + kGroupsX - 1) / kGroupsX, 1);
+    gpu::recordDispatch(commands, queued, ENSEMBLE_POSE_GROUPS_X);
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
                      Stage::eVertexShader, vk::AccessFlagBits2::eShaderSampledRead);

@@ -7,6 +7,8 @@
 
 #include "renderer/animation_texture.h"
 #include "renderer/crowd.h"
+#include "renderer/key_frames.h"
+#include "renderer/view_people.h"
 #include "renderer/vk/descriptors.h"
 #include "renderer/vk/memory.h"
 #include "shaders/shared/crowd_types.h"
@@ -19,7 +21,7 @@ struct CrowdChunk {
   gpu::Buffer characters;              ///< GpuCharacter, mapped
   gpu::Buffer palette;                 ///< world_from_model * skinning matrix, three rows a joint
   vk::raii::BufferView palette_view = nullptr;
-  gpu::Buffer pose_queue;  ///< numbers in the chunk of those whose poses are to be computed, mapped
+  gpu::Buffer pose_queue;  ///< GpuPoseJob of those whose poses are to be computed, mapped
   std::uint32_t pose_queue_length = 0;
 };
 
@@ -36,13 +38,18 @@ class CrowdState {
   /// that time have a radius that touches nothing.
   const std::vector<Sphere>& bounds() const { return bounds_; }
   std::uint32_t characterCount() const { return static_cast<std::uint32_t>(characters_.size()); }
+  /// At the time set, on the host; by number.
+  std::span<const GpuCharacter> characters() const { return characters_; }
+  std::span<const float> heights() const { return heights_; }  ///< metres, standing, scale included
+  const KeyFrames& keyFrames() const { return key_frames_; }
+  const gpu::Image& animationTexture() const { return texture_; }
 
   /// Brings phases to a time, at which nobody has a pose yet. The device must not be reading the
   /// characters.
   void setTime(double seconds);
-  /// Queues those of `people` (numbers in the crowd) who have no pose at this time, and says how many
-  /// they were. The device must be done with the pose pass before.
-  std::uint32_t queuePoses(std::span<const std::uint32_t> people);
+  /// Queues those of `people` (numbers in the crowd) who don't have their poses yet, and says how many they
+  /// were. The device must be done with the pose pass before. @param shown who is at a key frame
+  std::uint32_t queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown);
   /// Records the pose pass: fills the palettes of those queued, readable by vertex shaders
   /// afterwards, and empties the queues.
   void recordPoses(const vk::raii::CommandBuffer& commands);
@@ -62,10 +69,12 @@ class CrowdState {
   std::vector<GpuCharacter> characters_;
   std::vector<std::uint32_t> combinations_;
   std::vector<Sphere> bounds_;
-  std::vector<std::uint8_t> has_pose_;  // per person, at this time
+  std::vector<float> heights_;
+  std::vector<std::uint32_t> pose_of_;  // per person, at this time: GpuPoseJob::key_matrix, or kNoPose
   std::vector<CrowdChunk> chunks_;
   std::vector<std::uint32_t> chunk_of_;  // per person
 
+  KeyFrames key_frames_;
   gpu::Image texture_;
   gpu::Buffer clips_, legs_, leg_groups_;
   vk::raii::Sampler sampler_ = nullptr;

@@ -1,6 +1,7 @@
 #include "renderer/frame_loop.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -93,6 +94,15 @@ void readAovs(const ViewTargets& targets, const View& view, Picture& picture) {
   }
 }
 
+/// Those of `people` for whom `is_computed` holds, and the others.
+template <class IsComputed>
+void divide(const std::vector<std::uint32_t>& people, const IsComputed& is_computed,
+            std::vector<std::uint32_t>& computed, std::vector<std::uint32_t>& others) {
+  computed.clear();
+  others.clear();
+  for (const std::uint32_t person : people) (is_computed(person) ? computed : others).push_back(person);
+}
+
 /// The viewport is the whole picture's, also where a tile is drawn.
 void refuseBeyondViewport(const gpu::Device& device, const View& view) {
   const auto& most = device.limits().maxViewportDimensions;
@@ -108,7 +118,8 @@ void refuseBeyondViewport(const gpu::Device& device, const View& view) {
 }  // namespace
 
 FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-                     const EnvironmentAssets* environment, const FrameLimits& limits)
+                     const EnvironmentAssets* environment, std::vector<float> longest_edges,
+                     const FrameLimits& limits)
     : device_(device),
       assets_(assets),
       state_(state),
@@ -121,10 +132,22 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
       main_queues_(device, layout_, assets, state),
       shadow_queues_(device, layout_, assets, state),
       counter_(device, kPassCount),
-      shadow_sampler_(makeShadowSampler(device)) {
+      shadow_sampler_(makeShadowSampler(device)),
+      longest_edges_(std::move(longest_edges)),
+      can_be_computed_(state.characterCount(), 0) {
+  if (!longest_edges_.empty()) {
+    compute_ =
+        std::make_unique<ComputeRaster>(device, layout_, assets, state,
+                                        ComputeRasterOptions{.pose_cache_bytes = limits.pose_cache_bytes,
+                                                             .max_buffer_bytes = limits.max_buffer_bytes});
+    for (std::uint32_t i = 0; i < can_be_computed_.size(); ++i)
+      can_be_computed_[i] = compute_->canDraw(state.combinations()[i]) ? 1 : 0;
+  }
+  longest_edges_.resize(state.characterCount(), 0.0f);
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
-  visible_.reserve(state.characterCount());
-  casters_.reserve(state.characterCount());
+  for (std::vector<std::uint32_t>* list :
+       {&visible_, &casters_, &near_, &computed_, &near_casters_, &computed_casters_})
+    list->reserve(state.characterCount());
   if (environment_) {
     environment_pass_ = std::make_unique<EnvironmentPass>(device, layout_, *environment_);
     main_environment_ = environment_pass_->makeQueue();
@@ -157,14 +180,17 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
 
 void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& picture) {
   refuseBeyondViewport(device_, view);
+  if (view.raster == RasterKind::kCompute) requireCompute(view);
   const ShadowFit fit = fitShadowMap(view, state_.bounds(), environment_ ? environment_->bounds() : Box());
   const TileGrid grid(view.width, view.height, limits_.tiles);
   Slot& slot = slotFor(view, grid, fit.size);
   FrameStats stats;
   stats.gpu_mesh_bytes = assets_.meshBytes();
   stats.environment_bytes = environment_ ? environment_->meshBytes() : 0;
-  findVisible(frustumOf(view), state_.bounds(), visible_);
+  if (compute_) compute_->beginFrame();
+  choosePeople(view, fit);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
+  stats.characters_computed = static_cast<std::uint32_t>(computed_.size());
   buildShadowQueues(view, fit);
   picture.coverage.assign(view.coverage ? state_.characterCount() : 0, 0);
   for (std::uint32_t i = 0; i < grid.count(); ++i) {
@@ -174,8 +200,9 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     slot.targets.tile = grid[i];
     buildQueues(view, slot.targets.tile);
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
-    stats.characters_posed += state_.queuePoses(visible_);
-    if (is_first) stats.characters_posed += state_.queuePoses(casters_);
+    stats.characters_posed += state_.queuePoses(near_, shown_);
+    if (is_first) stats.characters_posed += state_.queuePoses(near_casters_, shown_);
+    prepareCompute(slot);
     record(view, slot, is_first);
     stats.cpu_ms += millisecondsSince(start);
     submitAndWait();
@@ -187,6 +214,34 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     if (view.coverage) countCoverage(view, slot, picture.coverage);
   }
   picture.stats = stats;
+}
+
+void FrameLoop::requireCompute(const View& view) const {
+  if (compute_ && view.samples == 1) return;
+  throw SystemError(
+      {.file = {},
+       .where = "Vulkan device " + device_.name(),
+       .what = compute_ ? "the compute rasteriser draws one sample a pixel, not 4"
+                        : "it can't rasterise in compute shaders: it has no 64-bit atomics in buffers, or "
+                          "no shuffles in subgroups",
+       .mend = compute_ ? "set output.samples to 1, or raster to auto" : "set raster to auto"});
+}
+
+void FrameLoop::choosePeople(const View& view, const ShadowFit& fit) {
+  findVisible(frustumOf(view), state_.bounds(), visible_);
+  if (view.light.shadows) {
+    findCasters(fit, state_.bounds(), casters_);
+  } else {
+    casters_.clear();
+  }
+  const PeopleAtTime people{.characters = state_.characters(),
+                            .bounds = state_.bounds(),
+                            .heights = state_.heights(),
+                            .longest_edges = longest_edges_,
+                            .can_be_computed = can_be_computed_};
+  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_, compute_ && view.samples == 1);
+  const auto is_computed = [&](std::uint32_t person) { return shown_.isComputed(person); };
+  divide(visible_, is_computed, computed_, near_);
 }
 
 FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std::uint32_t shadow_size) {
@@ -202,8 +257,14 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
              .view_buffer = gpu::Buffer(device_, sizeof(GpuView), vk::BufferUsageFlagBits::eUniformBuffer,
                                         gpu::Buffer::Kind::kUpload, "a view"),
              .view_set = layout_.makeViewSets(device_, 1),
-             .post_set = {}});
+             .post_set = {},
+             .computed = {},
+             .computed_shadow = {}});
     slot->post_set = post_pass_.makeSet(device_, slot->targets);
+    if (compute_) {
+      slot->computed = compute_->makeTarget(ComputeRaster::Eye::kCamera, slot->targets);
+      slot->computed_shadow = compute_->makeTarget(ComputeRaster::Eye::kSun, slot->targets);
+    }
     gpu::writeBuffer(device_, slot->view_set[0], ENSEMBLE_BINDING_VIEW, slot->view_buffer,
                      vk::DescriptorType::eUniformBuffer);
     gpu::writeImage(device_, slot->view_set[0], ENSEMBLE_BINDING_SHADOW_MAP, slot->targets.shadow_map,
@@ -216,6 +277,7 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   if (!view.aovs.empty()) {
     if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
     if (environment_pass_) environment_pass_->prepareAovs();
+    if (compute_) compute_->makeAovSet((*found)->targets, (*found)->computed);
   }
   if (view.coverage && !coverage_pass_)
     coverage_pass_ = std::make_unique<CoveragePass>(device_, layout_, assets_);
@@ -225,36 +287,67 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
 void FrameLoop::buildQueues(const View& view, const Tile& tile) {
   const Frustum frustum = frustumOf(view, tile);
   findVisible(frustum, state_.bounds(), visible_);
-  main_queues_.build(assets_, state_, visible_);
+  divide(
+      visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
+  main_queues_.build(assets_, state_, near_);
+  if (compute_)
+    compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_);
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return frustum.touches(box); }, main_environment_);
 }
 
 void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
-  if (view.light.shadows) {
-    findCasters(fit, state_.bounds(), casters_);
-  } else {
-    casters_.clear();
-  }
-  shadow_queues_.build(assets_, state_, casters_);
+  divide(
+      casters_, [&](std::uint32_t person) { return shown_.castsComputed(person); }, computed_casters_,
+      near_casters_);
+  shadow_queues_.build(assets_, state_, near_casters_);
+  if (compute_) compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_);
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },
                           shadow_environment_);
+}
+
+void FrameLoop::prepareCompute(Slot& slot) {
+  using Eye = ComputeRaster::Eye;
+  if (computes(Eye::kCamera)) compute_->prepare(Eye::kCamera, slot.targets, slot.computed);
+  if (computes(Eye::kSun)) compute_->prepare(Eye::kSun, slot.targets, slot.computed_shadow);
 }
 
 void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   counter_.reset(commands_);
   state_.recordPoses(commands_);
-  CrowdDraw draw{
-      .assets = &assets_, .layout = &layout_, .queues = &shadow_queues_, .view_set = slot.view_set[0]};
-  draw.environment = {environment_pass_.get(), &shadow_environment_, kEnvironmentShadow};
-  if (draws_shadows) shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow);
-  draw.queues = &main_queues_;
-  draw.environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain};
-  color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain);
+  if (compute_) compute_->recordPoses(commands_);
+  if (draws_shadows) recordShadows(view, slot);
+  const CrowdDraw draw{.assets = &assets_,
+                       .layout = &layout_,
+                       .queues = &main_queues_,
+                       .view_set = slot.view_set[0],
+                       .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
+  const bool computed = computes(ComputeRaster::Eye::kCamera);
+  color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain, computed);
+  if (computed) {
+    const float near_plane = view.camera.near_plane;
+    compute_->record(commands_, ComputeRaster::Eye::kCamera, draw.view_set, slot.computed, near_plane);
+    compute_->recordColor(commands_, draw.view_set, slot.targets, slot.computed, near_plane);
+  }
   post_pass_.record(commands_, slot.targets, slot.post_set[0], view.linear);
   ENSEMBLE_VK(commands_.end());
+}
+
+void FrameLoop::recordShadows(const View& view, const Slot& slot) {
+  using Eye = ComputeRaster::Eye;
+  const CrowdDraw draw{.assets = &assets_,
+                       .layout = &layout_,
+                       .queues = &shadow_queues_,
+                       .view_set = slot.view_set[0],
+                       .environment = {environment_pass_.get(), &shadow_environment_, kEnvironmentShadow}};
+  std::function<void()> fill;
+  if (computes(Eye::kSun)) {
+    compute_->record(commands_, Eye::kSun, draw.view_set, slot.computed_shadow, view.camera.near_plane);
+    fill = [&] { ComputeRaster::recordShadowMap(commands_, slot.targets, slot.computed_shadow); };
+  }
+  shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow, fill);
 }
 
 void FrameLoop::recordAovs(const View& view, const Slot& slot) {
@@ -264,7 +357,12 @@ void FrameLoop::recordAovs(const View& view, const Slot& slot) {
                        .queues = &main_queues_,
                        .view_set = slot.view_set[0],
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
-  aov_pass_->record(commands_, draw, slot.targets, view);
+  const auto draw_computed = [&] {
+    compute_->recordAovs(commands_, draw.view_set, slot.targets, slot.computed, view.camera.near_plane);
+  };
+  std::function<void()> more;  // by reference: a copy would allocate
+  if (computes(ComputeRaster::Eye::kCamera)) more = std::cref(draw_computed);
+  aov_pass_->record(commands_, draw, slot.targets, view, more);
   ENSEMBLE_VK(commands_.end());
   submitAndWait();
 }
@@ -272,9 +370,13 @@ void FrameLoop::recordAovs(const View& view, const Slot& slot) {
 void FrameLoop::countCoverage(const View& view, const Slot& slot, std::vector<std::uint32_t>& pixels) {
   const CrowdDraw draw{
       .assets = &assets_, .layout = &layout_, .queues = &main_queues_, .view_set = slot.view_set[0]};
+  // Everybody is drawn by the graphics pipeline here.
+  main_queues_.build(assets_, state_, visible_);
+  state_.queuePoses(visible_, shown_);
   coverage_pass_->plan(main_queues_);
   for (std::size_t group = 0; group < coverage_pass_->groupCount(); ++group) {
     ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
+    if (group == 0) state_.recordPoses(commands_);
     coverage_pass_->record(commands_, draw, slot.targets, view, group);
     ENSEMBLE_VK(commands_.end());
     submitAndWait();
@@ -304,9 +406,20 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
     add(queue.counts, number, stats.environment);
   };
   add(main_queues_.counts(), kMain, stats.main);
+  if (compute_) {
+    const std::uint64_t computed = compute_->triangleCount(ComputeRaster::Eye::kCamera);
+    stats.main.triangles += computed;
+    stats.triangles_computed += computed;
+    const PoseCacheStats& poses = compute_->poses().stats();
+    stats.pose_hits = poses.hits;
+    stats.pose_misses = poses.misses;
+    stats.pose_bytes = poses.kept_vertices * 2 * sizeof(std::uint32_t);
+    stats.vertices_skinned = compute_->poses().skinnedVertices();
+  }
   add_environment(main_environment_, kEnvironmentMain, stats.main);
   if (!drew_shadows) return;
   add(shadow_queues_.counts(), kShadow, stats.shadow);
+  if (compute_) stats.shadow.triangles += compute_->triangleCount(ComputeRaster::Eye::kSun);
   add_environment(shadow_environment_, kEnvironmentShadow, stats.shadow);
 }
 

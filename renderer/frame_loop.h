@@ -8,6 +8,7 @@
 
 #include "renderer/aov_pass.h"
 #include "renderer/color_pass.h"
+#include "renderer/compute_raster.h"
 #include "renderer/coverage_pass.h"
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_state.h"
@@ -22,14 +23,17 @@ namespace ensemble {
 
 struct FrameLimits {
   std::uint64_t max_buffer_bytes = 0;
+  std::uint64_t pose_cache_bytes = 0;
   TileLimits tiles = {};
 };
 
 class FrameLoop {
  public:
   /// @param environment null where there is none
+  /// @param longest_edges per person, metres; empty: everybody is drawn by the graphics pipeline
   FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-            const EnvironmentAssets* environment, const FrameLimits& limits);
+            const EnvironmentAssets* environment, std::vector<float> longest_edges,
+            const FrameLimits& limits);
 
   /// Draws views at a time, one after the other. @throws SystemError if targets don't fit
   void render(std::span<const View> views, double seconds, std::span<Picture> pictures);
@@ -40,21 +44,29 @@ class FrameLoop {
     ViewTargets targets;
     gpu::Buffer view_buffer;
     gpu::DescriptorSets view_set, post_set;
+    ComputeRaster::Target computed, computed_shadow;
   };
   enum Pass : std::uint32_t { kShadow, kMain, kEnvironmentShadow, kEnvironmentMain, kPassCount };
 
   Slot& slotFor(const View& view, const TileGrid& grid, std::uint32_t shadow_size);
   /// Draws a view at the state's time, tile by tile; `start` is when its turn came.
   void drawView(const View& view, std::chrono::steady_clock::time_point start, Picture& picture);
+  /// Finds who is in sight and who casts shadows, and decides how they are drawn.
+  void choosePeople(const View& view, const ShadowFit& fit);
+  /// @throws SystemError if a view asks for the compute rasteriser and can't have it
+  void requireCompute(const View& view) const;
   void buildQueues(const View& view, const Tile& tile);
   void buildShadowQueues(const View& view, const ShadowFit& fit);
+  void prepareCompute(Slot& slot);
   void record(const View& view, const Slot& slot, bool draws_shadows);
+  void recordShadows(const View& view, const Slot& slot);
   void recordAovs(const View& view, const Slot& slot);
   /// Adds what each person would cover of a tile.
   void countCoverage(const View& view, const Slot& slot, std::vector<std::uint32_t>& pixels);
   void submitAndWait();
   /// Adds what the last submission drew.
   void addStats(bool drew_shadows, FrameStats& stats) const;
+  bool computes(ComputeRaster::Eye eye) const { return compute_ && compute_->hasWork(eye); }
 
   gpu::Device& device_;
   const CrowdAssets& assets_;
@@ -67,6 +79,7 @@ class FrameLoop {
   PostPass post_pass_;
   std::unique_ptr<AovPass> aov_pass_;            // made when first asked for
   std::unique_ptr<CoveragePass> coverage_pass_;  // likewise
+  std::unique_ptr<ComputeRaster> compute_;       // null where it can't be
   std::unique_ptr<EnvironmentPass> environment_pass_;
   EnvironmentQueue main_environment_, shadow_environment_;
   QueueBuffers main_queues_, shadow_queues_;
@@ -76,7 +89,11 @@ class FrameLoop {
   vk::raii::CommandBuffer commands_ = nullptr;
   vk::raii::Fence fence_ = nullptr;
   std::vector<std::unique_ptr<Slot>> slots_;  // oldest first
-  std::vector<std::uint32_t> visible_, casters_;
+  ViewPeople shown_;
+  std::vector<float> longest_edges_;              // per person
+  std::vector<std::uint8_t> can_be_computed_;     // likewise
+  std::vector<std::uint32_t> visible_, casters_;  // all of them; the rest are parts of these
+  std::vector<std::uint32_t> near_, computed_, near_casters_, computed_casters_;
   std::vector<std::uint32_t> first_of_chunk_;  // per chunk of people: the number of its first
 };
 

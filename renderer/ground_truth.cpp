@@ -7,6 +7,7 @@
 #include "core/box.h"
 #include "core/check.h"
 #include "core/clip.h"
+#include "renderer/animation.h"
 #include "renderer/posed_joints.h"
 #include "renderer/view_setup.h"
 
@@ -130,14 +131,18 @@ std::vector<PersonTruth> truthOf(const Crowd& crowd, std::span<const Wardrobe> w
   ENSEMBLE_CHECK(picture.character.size() == std::size_t{view.width} * view.height);
   const std::vector<Pixels> pixels = collectPixels(picture, view, people);
   const PinholeCamera camera = pinholeOf(view);
+  std::vector<float> heights;
+  for (const Wardrobe& wardrobe : wardrobes) heights.push_back(bodyHeight(wardrobe));
   std::vector<PersonTruth> truths;
   for (std::uint32_t i = 0; i < people; ++i) {
     if (pixels[i].count == 0) continue;
     const Character& person = crowd.characters[i];
     const Wardrobe& wardrobe = wardrobes[person.wardrobe];
     const std::vector<Clip>& clips = wardrobe.body.clips;
-    const CharacterPose pose =
-        poseAt(crowd, person, clips.empty() ? 0.0f : clips[person.clip].seconds, seconds);
+    CharacterPose pose = poseAt(crowd, person, clips.empty() ? 0.0f : clips[person.clip].seconds, seconds);
+    const float size =
+        sizeOnScreen(view, Vec3(pose.world_from_model[3]), heights[person.wardrobe] * person.scale);
+    if (size < view.snap_below) pose = atNearestKey(wardrobe.body, pose);
     const std::vector<Mat4> matrices = posedMatrices(wardrobe.body, pose);
     PersonTruth& truth = truths.emplace_back();
     truth.number = i;

@@ -1,5 +1,7 @@
 #include "renderer/posed_joints.h"
 
+#include <cmath>
+
 #include "core/clip.h"
 #include "core/gait.h"
 #include "shaders/shared/leg_ik.h"
@@ -37,6 +39,21 @@ void holdFeet(const Legs& legs, const CharacterPose& pose, std::vector<Mat4>& ma
 }
 
 }  // namespace
+
+CharacterPose atNearestKey(const TemplateBody& body, CharacterPose pose) {
+  if (pose.idle_weight >= 0.5f) {
+    pose.clip = pose.idle_clip;
+    pose.phase = pose.idle_phase;
+  }
+  pose.idle_weight = 0.0f;
+  pose.holds_feet = false;
+  const std::uint32_t last = body.clips.empty() ? 0 : body.clips[pose.clip].key_count - 1;
+  if (last > 0) {
+    const auto intervals = static_cast<float>(last);
+    pose.phase = std::floor(pose.phase * intervals + 0.5f) / intervals;
+  }
+  return pose;
+}
 
 std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& pose) {
   std::vector<Mat4> matrices = clipMatrices(body, pose.clip, pose.phase);

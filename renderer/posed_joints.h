@@ -9,6 +9,9 @@
 
 namespace ensemble {
 
+/// A pose as it is shown from afar: at the nearest key frame of the clip that weighs more (KeyFrames).
+CharacterPose atNearestKey(const TemplateBody& body, CharacterPose pose);
+
 /// What skins a vertex, #joints, model space: the same arithmetic as shaders/pose.comp (key frames
 /// interpolated as matrices, the idle clip blended in, legs bent to hold the feet).
 std::vector<Mat4> posedMatrices(const TemplateBody& body, const CharacterPose& pose);

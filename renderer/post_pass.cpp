@@ -16,12 +16,7 @@ PostPass::PostPass(const gpu::Device& device) {
   set_layout_ = gpu::makeSetLayout(device, kBindings, vk::ShaderStageFlagBits::eCompute);
   layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
       device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout_}));
-  const vk::raii::ShaderModule shader = gpu::makeShader(device, kPostComp);
-  pipeline_ = ENSEMBLE_VK(vk::raii::Pipeline(
-      device.handle(), nullptr,
-      vk::ComputePipelineCreateInfo{
-          .stage = {.stage = vk::ShaderStageFlagBits::eCompute, .module = *shader, .pName = "main"},
-          .layout = *layout_}));
+  pipeline_ = gpu::makeComputePipeline(device, layout_, kPostComp);
 }
 
 gpu::DescriptorSets PostPass::makeSet(const gpu::Device& device, const ViewTargets& targets) const {

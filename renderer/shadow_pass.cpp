@@ -30,20 +30,33 @@ ShadowPass::ShadowPass(const gpu::Device& device, const CrowdLayout& layout, con
 }
 
 void ShadowPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
-                        const ViewTargets& targets, VertexCounter& counter,
-                        std::uint32_t counted_pass) const {
+                        const ViewTargets& targets, VertexCounter& counter, std::uint32_t counted_pass,
+                        const std::function<void()>& fill) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
+  using Layout = vk::ImageLayout;
+  constexpr auto readers = Stage::eFragmentShader | Stage::eComputeShader;
+  if (fill) {
+    gpu::recordBarrier(commands, targets.shadow_map,
+                       {.from_stage = readers,
+                        .to_stage = Stage::eTransfer,
+                        .to_access = Access::eTransferWrite,
+                        .to = Layout::eTransferDstOptimal});
+    fill();
+  }
   gpu::recordBarrier(commands, targets.shadow_map,
-                     {.from_stage = Stage::eFragmentShader,
+                     {.from_stage = fill ? vk::PipelineStageFlags2(Stage::eTransfer) : readers,
                       .to_stage = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
+                      .from_access = fill ? Access::eTransferWrite : Access{},
                       .to_access = Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
-                      .to = vk::ImageLayout::eDepthAttachmentOptimal});
-  const vk::RenderingAttachmentInfo depth{.imageView = targets.shadow_map.view(),
-                                          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
-                                          .loadOp = vk::AttachmentLoadOp::eClear,
-                                          .storeOp = vk::AttachmentStoreOp::eStore,
-                                          .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
+                      .from = fill ? Layout::eTransferDstOptimal : Layout::eUndefined,
+                      .to = Layout::eDepthAttachmentOptimal});
+  const vk::RenderingAttachmentInfo depth{
+      .imageView = targets.shadow_map.view(),
+      .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+      .loadOp = fill ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
+      .storeOp = vk::AttachmentStoreOp::eStore,
+      .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
   const std::uint32_t size = targets.size.shadow_size;
   commands.beginRendering(
       {.renderArea = {.extent = {size, size}}, .layerCount = 1, .pDepthAttachment = &depth});
@@ -56,7 +69,7 @@ void ShadowPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw
   commands.endRendering();
   gpu::recordBarrier(commands, targets.shadow_map,
                      {.from_stage = Stage::eLateFragmentTests,
-                      .to_stage = Stage::eFragmentShader,
+                      .to_stage = readers,
                       .from_access = Access::eDepthStencilAttachmentWrite,
                       .to_access = Access::eShaderSampledRead,
                       .from = vk::ImageLayout::eDepthAttachmentOptimal,

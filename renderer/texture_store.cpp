@@ -89,7 +89,7 @@ void TextureStore::createSets(gpu::Device& device) {
     samplers_.push_back(makeSampler(device, (wrap & 1u) != 0, (wrap & 2u) != 0));
   }
   layout_ = gpu::makeSetLayout(device, {vk::DescriptorType::eCombinedImageSampler},
-                               vk::ShaderStageFlagBits::eFragment);
+                               vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute);
   constexpr std::uint32_t count = kSides.size() * kWrapModes;
   sets_ = gpu::DescriptorSets(device, layout_, {vk::DescriptorType::eCombinedImageSampler}, count);
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -34,6 +34,8 @@ struct View {
   bool ground = true;  ///< not drawn on a transparent background
   std::uint32_t width = 1280, height = 720;
   std::uint32_t samples = 4;  ///< 1 or 4
+  RasterKind raster = RasterKind::kAuto;
+  float snap_below = 0.0f;  ///< pixels: who is smaller on the screen is shown at the nearest key frame
   BackgroundKind background = BackgroundKind::kSky;
   Vec3 background_color{0.0f};  ///< sRGB, for BackgroundKind::kColor
   AovSet aovs;

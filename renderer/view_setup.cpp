@@ -100,6 +100,8 @@ View viewOf(const Scene& scene, double seconds) {
   view.width = scene.output.width;
   view.height = scene.output.height;
   view.samples = scene.output.samples;
+  view.raster = scene.raster;
+  view.snap_below = scene.poses.snap_below;
   view.background = scene.output.background;
   view.background_color = scene.output.background_color;
   return view;
@@ -122,6 +124,16 @@ Mat4 clipFromWorld(const View& view) {
   // Rows of the product of projection and view; y points down in clip space.
   return glm::transpose(Mat4(row(frame.right, scale_x), row(frame.up, -scale_y),
                              Vec4(0.0f, 0.0f, 0.0f, view.camera.near_plane), row(frame.forward, 1.0f)));
+}
+
+float pixelsPerTangent(const View& view) {
+  return 0.5f * static_cast<float>(view.height) / std::tan(0.5f * view.camera.fov_y);
+}
+
+float sizeOnScreen(const View& view, const Vec3& feet, float height) {
+  const Vec3 middle = feet + Vec3(0.0f, 0.5f * height, 0.0f);
+  const float distance = std::max(glm::distance(middle, view.camera.position), view.camera.near_plane);
+  return pixelsPerTangent(view) * height / distance;
 }
 
 bool Frustum::touches(const Sphere& sphere) const {

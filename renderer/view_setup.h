@@ -24,6 +24,13 @@ Mat4 clipFromWorld(const View& view);
 
 inline Tile wholeOf(const View& view) { return {0, 0, view.width, view.height}; }
 
+/// Pixels that a length of one metre, one metre before the camera, has in the picture's middle.
+float pixelsPerTangent(const View& view);
+
+/// A person's height on the screen in pixels, by the distance of its middle. @param feet where it stands
+/// @param height metres
+float sizeOnScreen(const View& view, const Vec3& feet, float height);
+
 /// The planes that bound a picture; a point is inside where all dot(plane, (p, 1)) >= 0.
 struct Frustum {
   Vec4 planes[5];  ///< unit normals: left, right, bottom, top, near

@@ -57,11 +57,12 @@ ViewTargets::ViewTargets(gpu::Device& device, const TargetSize& target_size, std
                           {.width = size.shadow_size,
                            .height = size.shadow_size,
                            .format = kDepthFormat,
-                           .usage = Usage::eDepthStencilAttachment | Usage::eSampled},
+                           .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferDst},
                           "the shadow map");
   if (size.samples > 1) samples = image(kColorFormat, Usage::eColorAttachment, size.samples);
-  linear = image(kColorFormat, Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc, 1);
-  depth = image(kDepthFormat, Usage::eDepthStencilAttachment, size.samples);
+  linear = image(kColorFormat,
+                 Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eStorage, 1);
+  depth = image(kDepthFormat, Usage::eDepthStencilAttachment | Usage::eSampled, size.samples);
   srgb = image(vk::Format::eR8G8B8A8Unorm, Usage::eStorage | Usage::eTransferSrc, 1);
   readback = Readback(device, srgb, 4, max_buffer_bytes);
 }
@@ -80,7 +81,7 @@ void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
   const std::string what = fmt::format("AOVs of {} x {} pixels", size.width, size.height);
   for (std::size_t i = 0; i < aovs.size(); ++i) {
     options.format = kAovFormats[i];
-    options.usage = Usage::eColorAttachment | Usage::eTransferSrc;
+    options.usage = Usage::eColorAttachment | Usage::eTransferSrc | Usage::eStorage;
     aovs[i] = gpu::Image(device, options, what);
     aov_readbacks[i] = Readback(device, aovs[i], kAovPixelBytes[i], max_buffer_bytes);
   }
@@ -90,12 +91,12 @@ void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
 }
 
 vk::RenderingAttachmentInfo recordClearedDepth(const vk::raii::CommandBuffer& commands,
-                                               const gpu::Image& depth) {
+                                               const gpu::Image& depth, bool keep) {
   using Access = vk::AccessFlagBits2;
   constexpr auto stages =
       vk::PipelineStageFlagBits2::eEarlyFragmentTests | vk::PipelineStageFlagBits2::eLateFragmentTests;
   gpu::recordBarrier(commands, depth,
-                     {.from_stage = stages,
+                     {.from_stage = stages | vk::PipelineStageFlagBits2::eComputeShader,
                       .to_stage = stages,
                       .from_access = Access::eDepthStencilAttachmentWrite,
                       .to_access = Access::eDepthStencilAttachmentWrite | Access::eDepthStencilAttachmentRead,
@@ -103,8 +104,18 @@ vk::RenderingAttachmentInfo recordClearedDepth(const vk::raii::CommandBuffer& co
   return {.imageView = depth.view(),
           .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
           .loadOp = vk::AttachmentLoadOp::eClear,
-          .storeOp = vk::AttachmentStoreOp::eDontCare,
+          .storeOp = keep ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
           .clearValue = vk::ClearDepthStencilValue{.depth = 0.0f}};
+}
+
+void recordReadableDepth(const vk::raii::CommandBuffer& commands, const gpu::Image& depth) {
+  gpu::recordBarrier(commands, depth,
+                     {.from_stage = vk::PipelineStageFlagBits2::eLateFragmentTests,
+                      .to_stage = vk::PipelineStageFlagBits2::eComputeShader,
+                      .from_access = vk::AccessFlagBits2::eDepthStencilAttachmentWrite,
+                      .to_access = vk::AccessFlagBits2::eShaderSampledRead,
+                      .from = vk::ImageLayout::eDepthAttachmentOptimal,
+                      .to = vk::ImageLayout::eShaderReadOnlyOptimal});
 }
 
 void recordFullViewport(const vk::raii::CommandBuffer& commands, std::uint32_t width, std::uint32_t height) {

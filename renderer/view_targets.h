@@ -75,9 +75,11 @@ struct ViewTargets {
 };
 
 /// Makes a depth image ready to be cleared and drawn into, after other passes may have done so.
-/// @return the attachment that clears it to the sky's depth, 0, and drops it afterwards
+/// @return the attachment that clears it to the sky's depth, 0, and drops it afterwards, unless it is kept
 vk::RenderingAttachmentInfo recordClearedDepth(const vk::raii::CommandBuffer& commands,
-                                               const gpu::Image& depth);
+                                               const gpu::Image& depth, bool keep = false);
+/// Makes a depth image that was kept readable by compute shaders.
+void recordReadableDepth(const vk::raii::CommandBuffer& commands, const gpu::Image& depth);
 
 /// A viewport and a scissor over a whole target.
 void recordFullViewport(const vk::raii::CommandBuffer& commands, std::uint32_t width, std::uint32_t height);

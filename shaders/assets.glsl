@@ -33,20 +33,4 @@ uint sourceFace(GpuDraw draw_data) {
   return source_faces[draw_data.first_face + uint(gl_PrimitiveID)] + draw_data.face_offset;
 }
 
-// PCG output function (O'Neill 2014) as a hash of 32 bits.
-uint hashBits(uint x) {
-  uint state = x * 747796405u + 2891336453u;
-  uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
-  return (word >> 22) ^ word;
-}
-
-// What a person's tint does to a material's colour. A suit's parts have tints of their own.
-vec3 tinted(vec3 color, GpuMaterial material, uint tint_seed, uint part) {
-  if (material.tint_count == 0u) return color;
-  bool is_lower = part != 0u && material.lower_tint_count != 0u;
-  uint count = is_lower ? material.lower_tint_count : material.tint_count;
-  uint h = hashBits(tint_seed ^ (material.tint_key + (is_lower ? part * 0x9e3779b9u : 0u)));
-  vec3 tint = tints[material.tint_first + h % count].rgb * material.tint.rgb;
-  float brightness = 1.0 + material.tint_spread * (float(hashBits(h) >> 8) * (2.0 / 16777216.0) - 1.0);
-  return color * mix(vec3(1.0), tint * brightness, material.tint.a);
-}
+vec4 tintColor(uint number) { return tints[number]; }

@@ -14,7 +14,7 @@ layout(set = 0, binding = ENSEMBLE_BINDING_POSE_CHARACTERS, std430) readonly buf
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_PALETTE, std430) writeonly buffer Palette { vec4 palette[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_CLIPS, std430) readonly buffer Clips { GpuClip clips[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_ANIMATION) uniform sampler2D animation;
-layout(set = 0, binding = ENSEMBLE_BINDING_POSE_QUEUE, std430) readonly buffer Queue { uint queue[]; };
+layout(set = 0, binding = ENSEMBLE_BINDING_POSE_QUEUE, std430) readonly buffer Queue { GpuPoseJob queue[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_LEGS, std430) readonly buffer AllLegs { GpuLegs all_legs[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_LEG_GROUPS, std430) readonly buffer Groups { uint leg_groups[]; };
 
@@ -84,12 +84,19 @@ Rows holdFoot(GpuCharacter character, GpuLegs legs, uint group, Rows rows) {
 void main() {
   uint index = gl_WorkGroupID.y * ENSEMBLE_POSE_GROUPS_X + gl_WorkGroupID.x;
   if (index >= queue_length) return;
-  GpuCharacter character = characters[queue[index]];
+  GpuPoseJob job = queue[index];
+  GpuCharacter character = characters[job.character];
   GpuClip clip = clips[character.clip];
-  bool holds_feet = character.feet[0].w > 0.0 || character.feet[1].w > 0.0;
+  bool is_key = job.key_matrix != 0u;
+  bool holds_feet = !is_key && (character.feet[0].w > 0.0 || character.feet[1].w > 0.0);
 
   for (uint joint = gl_LocalInvocationID.x; joint < clip.joint_count; joint += ENSEMBLE_POSE_GROUP) {
-    Rows rows = posedRows(character, joint);
+    Rows rows;
+    if (is_key) {
+      for (uint row = 0u; row < 3u; ++row) rows.row[row] = animationRow(job.key_matrix - 1u + joint, row);
+    } else {
+      rows = posedRows(character, joint);
+    }
     if (holds_feet) {
       GpuLegs legs = all_legs[clip.legs];
       uint group = leg_groups[legs.first_group + joint];

@@ -5,6 +5,7 @@
 
 layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
 #include "shaders/lighting.glsl"
+#include "shaders/view_ray.glsl"
 
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,7 @@
 #include "renderer/vk/descriptors.h"
 
+#include <algorithm>
+
 namespace ensemble::gpu {
 
 vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
@@ -76,6 +78,25 @@ void writeImage(const Device& device, vk::DescriptorSet set, std::uint32_t bindi
 vk::raii::ShaderModule makeShader(const Device& device, std::span<const std::uint32_t> spirv) {
   return ENSEMBLE_VK(vk::raii::ShaderModule(
       device.handle(), vk::ShaderModuleCreateInfo{.codeSize = spirv.size_bytes(), .pCode = spirv.data()}));
+}
+
+vk::raii::Pipeline makeComputePipeline(const Device& device, const vk::raii::PipelineLayout& layout,
+                                       std::span<const std::uint32_t> spirv,
+                                       const vk::SpecializationInfo* constants) {
+  const vk::raii::ShaderModule shader = makeShader(device, spirv);
+  return ENSEMBLE_VK(
+      vk::raii::Pipeline(device.handle(), nullptr,
+                         vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                                 .module = *shader,
+                                                                 .pName = "main",
+                                                                 .pSpecializationInfo = constants},
+                                                       .layout = *layout}));
+}
+
+void recordDispatch(const vk::raii::CommandBuffer& commands, std::uint32_t group_count,
+                    std::uint32_t groups_x) {
+  if (group_count == 0) return;
+  commands.dispatch(std::min(group_count, groups_x), (group_count + groups_x - 1) / groups_x, 1);
 }
 
 }  // namespace ensemble::gpu

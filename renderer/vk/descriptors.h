@@ -21,6 +21,14 @@ class DescriptorSets {
   DescriptorSets() = default;
   DescriptorSets(const Device& device, const vk::raii::DescriptorSetLayout& layout,
                  std::initializer_list<vk::DescriptorType> types, std::uint32_t count);
+  ~DescriptorSets() = default;
+  DescriptorSets(DescriptorSets&&) noexcept = default;
+  /// The old sets go before their pool does.
+  DescriptorSets& operator=(DescriptorSets&& other) noexcept {
+    sets_ = std::move(other.sets_);
+    pool_ = std::move(other.pool_);
+    return *this;
+  }
 
   vk::DescriptorSet operator[](std::size_t i) const { return *sets_[i]; }
   std::size_t size() const { return sets_.size(); }
@@ -40,5 +48,15 @@ void writeImage(const Device& device, vk::DescriptorSet set, std::uint32_t bindi
 
 /// A shader module of embedded SPIR-V.
 vk::raii::ShaderModule makeShader(const Device& device, std::span<const std::uint32_t> spirv);
+
+/// @param constants null: the shader's defaults
+vk::raii::Pipeline makeComputePipeline(const Device& device, const vk::raii::PipelineLayout& layout,
+                                       std::span<const std::uint32_t> spirv,
+                                       const vk::SpecializationInfo* constants = nullptr);
+
+/// Dispatches groups along x, and from `groups_x` on in further rows of y; the shader counts y * groups_x + x
+/// and leaves what is beyond the count.
+void recordDispatch(const vk::raii::CommandBuffer& commands, std::uint32_t group_count,
+                    std::uint32_t groups_x);
 
 }  // namespace ensemble::gpu

@@ -60,6 +60,22 @@ std::string missingFrom(const vk::raii::PhysicalDevice& device) {
   return {};
 }
 
+/// What our rasteriser asks for beyond what every device must have.
+bool canRasteriseOn(const vk::raii::PhysicalDevice& device) {
+  constexpr std::uint32_t kTexels = 1u << 26;  // 16-bit indices in a buffer of 128 MiB
+  const auto features =
+      device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+  const auto properties =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
+  const auto& subgroup = properties.get<vk::PhysicalDeviceSubgroupProperties>();
+  constexpr auto wanted = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eShuffle;
+  return features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
+         features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics &&
+         (subgroup.supportedOperations & wanted) == wanted &&
+         (subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute) &&
+         properties.get<vk::PhysicalDeviceProperties2>().properties.limits.maxTexelBufferElements >= kTexels;
+}
+
 int rank(vk::PhysicalDeviceType type) {
   switch (type) {
     case vk::PhysicalDeviceType::eDiscreteGpu:
@@ -186,6 +202,11 @@ void Device::choosePhysicalDevice() {
   properties_ = physical_.getProperties();
   memory_ = physical_.getMemoryProperties();
   queue_family_ = *graphicsQueueFamily(physical_);
+  can_rasterise_ = canRasteriseOn(physical_);
+  subgroup_size_ =
+      physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
+          .get<vk::PhysicalDeviceSubgroupProperties>()
+          .subgroupSize;
 }
 
 void Device::createDevice() {
@@ -196,10 +217,12 @@ void Device::createDevice() {
                                          .depthClamp = true,
                                          .samplerAnisotropy = offered.samplerAnisotropy,
                                          .occlusionQueryPrecise = offered.occlusionQueryPrecise,
-                                         .pipelineStatisticsQuery = offered.pipelineStatisticsQuery};
+                                         .pipelineStatisticsQuery = offered.pipelineStatisticsQuery,
+                                         .shaderInt64 = can_rasterise_};
   vk::PhysicalDeviceVulkan13Features v13{
       .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-  vk::PhysicalDeviceVulkan11Features v11{.pNext = &v13, .shaderDrawParameters = true};
+  vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .shaderBufferInt64Atomics = can_rasterise_};
+  vk::PhysicalDeviceVulkan11Features v11{.pNext = &v12, .shaderDrawParameters = true};
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue_info{
       .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};

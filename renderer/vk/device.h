@@ -46,6 +46,10 @@ class Device {
   std::uint32_t queueFamily() const { return queue_family_; }
   std::string name() const { return properties_.deviceName; }
   bool hasPipelineStatistics() const { return features_.pipelineStatisticsQuery; }
+  /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers and shuffles in
+  /// subgroups.
+  bool canRasterise() const { return can_rasterise_; }
+  std::uint32_t subgroupSize() const { return subgroup_size_; }
   std::vector<std::string> validationMessages() const { return log_.messages(); }
 
   /// Memory for a resource. @param what names it in the error
@@ -74,6 +78,8 @@ class Device {
   vk::PhysicalDeviceFeatures features_;
   vk::PhysicalDeviceMemoryProperties memory_;
   std::uint32_t queue_family_ = 0;
+  bool can_rasterise_ = false;
+  std::uint32_t subgroup_size_ = 1;
   vk::raii::Device device_ = nullptr;
   vk::raii::Queue queue_ = nullptr;
   vk::raii::CommandPool pool_ = nullptr;

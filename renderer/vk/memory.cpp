@@ -29,12 +29,10 @@ Buffer::Buffer(Device& device, std::uint64_t bytes, vk::BufferUsageFlags usage, 
   memory_ = Memory(device, std::move(memory), wanted.size);
 }
 
-vk::raii::BufferView Buffer::makeTexelView(const Device& device) const {
-  return ENSEMBLE_VK(vk::raii::BufferView(device.handle(),
-                                          vk::BufferViewCreateInfo{.buffer = *buffer_,
-                                                                   .format = vk::Format::eR32G32B32A32Sfloat,
-                                                                   .offset = 0,
-                                                                   .range = VK_WHOLE_SIZE}));
+vk::raii::BufferView Buffer::makeTexelView(const Device& device, vk::Format format) const {
+  return ENSEMBLE_VK(vk::raii::BufferView(
+      device.handle(),
+      vk::BufferViewCreateInfo{.buffer = *buffer_, .format = format, .offset = 0, .range = VK_WHOLE_SIZE}));
 }
 
 Image::Image(Device& device, const ImageOptions& options, const std::string& what) : options_(options) {

@@ -56,8 +56,9 @@ class Buffer {
   vk::Buffer handle() const { return *buffer_; }
   std::uint64_t size() const { return size_; }
   explicit operator bool() const { return size_ != 0; }
-  /// A view of RGBA32F texels, for shaders that read it as a texel buffer.
-  vk::raii::BufferView makeTexelView(const Device& device) const;
+  /// A view of texels, for shaders that read it as a texel buffer.
+  vk::raii::BufferView makeTexelView(const Device& device,
+                                     vk::Format format = vk::Format::eR32G32B32A32Sfloat) const;
   vk::DescriptorBufferInfo descriptor() const { return {.buffer = *buffer_, .offset = 0, .range = size_}; }
 
   /// The mapped content as an array of T. @pre mapped

@@ -96,6 +96,12 @@ struct GpuCharacter {
   uint unused_2;
 };
 
+/// Somebody whose pose is to be computed.
+struct GpuPoseJob {
+  uint character;
+  uint key_matrix;  ///< 0: as the clips run; else 1 + the first matrix of the key frame that is shown
+};
+
 /// A clip in the animation texture. Texel 3 * (first_matrix + key * joint_count + joint) + row.
 struct GpuClip {
   uint first_matrix;

@@ -50,5 +50,12 @@ vec3 decodeOctahedral(vec2 e) {
   n.y += n.y >= 0.0 ? -t : t;
   return normalize(n);
 }
+
+// The other way, of a vector of any length.
+vec2 encodeOctahedral(vec3 n) {
+  vec2 e = n.xy / max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
+  vec2 folded = (1.0 - abs(e.yx)) * vec2(e.x >= 0.0 ? 1.0 : -1.0, e.y >= 0.0 ? 1.0 : -1.0);
+  return n.z < 0.0 ? folded : e;
+}
 #endif
 #endif

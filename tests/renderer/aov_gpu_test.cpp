@@ -39,6 +39,7 @@ TEST_F(AovTest, EveryPixelShowsTheFaceThatItNames) {
   Scene scene = testing::tubeScene(8);
   scene.crowd.scale = {0.9f, 1.1f};
   View view = viewOf(scene);
+  view.snap_below = 0.0f;
   view.aovs = testing::allAovs();
   view.ground = false;
   const double seconds = 0.37;

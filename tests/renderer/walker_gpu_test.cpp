@@ -48,11 +48,13 @@ TEST_F(WalkerGpuTest, PosesAreThoseOfTheHost) {
   ASSERT_TRUE(legs);
   std::size_t leg_pixels = 0, blended = 0;
   for (double seconds = 0.0; seconds < 20.0; seconds += 1.7) {
+    view.snap_below = seconds > 10.0 ? 1e5f : 0.0f;
     const Picture picture = draw(*renderer, view, seconds);
     for (std::uint32_t pixel = 0; pixel < picture.character.size(); ++pixel) {
       if (picture.character[pixel] == 0) continue;
       const Character& person = renderer->crowd().characters.at(picture.character[pixel] - 1);
-      const CharacterPose pose = poseAt(renderer->crowd(), person, 1.0f, seconds);
+      CharacterPose pose = poseAt(renderer->crowd(), person, 1.0f, seconds);
+      if (view.snap_below > 0.0f) pose = atNearestKey(body, pose);
       const std::vector<Mat4> matrices = posedMatrices(body, pose);
       std::array<Vec3, 3> corners;
       const Triangle& face = body.faces[FaceId(picture.face[pixel] - 1)];

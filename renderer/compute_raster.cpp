@@ -1,0 +1,433 @@
+#include "renderer/compute_raster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "renderer/crowd_pipeline.h"
+#include "spirv/raster.comp.h"
+#include "spirv/raster_aov.comp.h"
+#include "spirv/raster_bins.comp.h"
+#include "spirv/raster_color.comp.h"
+#include "spirv/raster_list.comp.h"
+#include "spirv/raster_sort.comp.h"
+
+namespace ensemble {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
+constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
+constexpr auto kTexels = vk::DescriptorType::eUniformTexelBuffer;
+/// In the order of ENSEMBLE_BINDING_RASTER_...
+constexpr std::initializer_list<vk::DescriptorType> kBindings = {kTexels,   // people
+                                                                 kTexels,   // who
+                                                                 kStorage,  // entries
+                                                                 kStorage,  // work
+                                                                 kStorage,  // groups
+                                                                 kStorage,  // target
+                                                                 kTexels,   // indices
+                                                                 kTexels,   // poses
+                                                                 kTexels,   // vertices
+                                                                 kTexels,   // items
+                                                                 kTexels,   // shown
+                                                                 kTexels,   // table of poses
+                                                                 kTexels,   // materials
+                                                                 kTexels,   // tints
+                                                                 kStorage,  // pixels
+                                                                 kStorage,  // bins
+                                                                 vk::DescriptorType::eCombinedImageSampler,
+                                                                 vk::DescriptorType::eStorageImage};
+constexpr auto kImage = vk::DescriptorType::eStorageImage;
+constexpr std::initializer_list<vk::DescriptorType> kAovBindings = {kImage, kImage, kImage, kImage, kImage};
+
+void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
+  gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
+                     Stage::eComputeShader | Stage::eDrawIndirect,
+                     Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+}
+
+}  // namespace
+
+/// As raster_sets.glsl has it.
+struct ComputeRaster::Push {
+  std::uint32_t first_group = 0, group_count = 0, face_bits = 0, width = 0, height = 0;
+  float near_plane = 0.0f;
+  std::uint32_t bin = 0, bin_count = 0;
+};
+
+ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
+                             const CrowdState& state, const ComputeRasterOptions& options)
+    : device_(device),
+      layout_(layout),
+      assets_(assets),
+      options_(options),
+      poses_(device, assets, state.keyFrames(), state.animationTexture(), options.pose_cache_bytes,
+             options.max_buffer_bytes) {
+  makeItems();
+  makeShown();
+  materials_view_ = assets.materials().makeTexelView(device, vk::Format::eR32G32B32A32Uint);
+  tints_view_ = assets.tints().makeTexelView(device);
+  createPipelines();
+  camera_.eye = Eye::kCamera;
+  sun_.eye = Eye::kSun;
+  for (Work* work : {&camera_, &sun_}) {
+    work->plan = std::make_unique<RasterPlan>(plan_items_, shown_,
+                                              static_cast<std::uint32_t>(state.keyFrames().keys.size()),
+                                              device.subgroupSize() * ENSEMBLE_RASTER_RUN);
+  }
+}
+
+void ComputeRaster::makeItems() {
+  const auto number_of = [](auto& known, const auto& value) {
+    const auto found = std::find(known.begin(), known.end(), value);
+    if (found != known.end()) return static_cast<std::uint32_t>(found - known.begin());
+    known.push_back(value);
+    return static_cast<std::uint32_t>(known.size() - 1);
+  };
+  std::vector<GpuRasterItem> gpu;
+  for (const DrawItem& item : assets_.items()) {
+    const std::uint32_t pair = number_of(pairs_, Pair{item.state.index_chunk, item.state.vertex_chunk});
+    const std::uint32_t bin = number_of(bins_, Bin{pair, item.state.texture_set, item.state.textured});
+    gpu.push_back({.first_index = item.first_index,
+                   .first_vertex = static_cast<std::uint32_t>(item.vertex_offset),
+                   .first_pose = poses_.firstPose(item.mesh),
+                   .bin = bin,
+                   .material = item.gpu.material,
+                   .region = item.gpu.region,
+                   .first_face = item.gpu.first_face,
+                   .face_offset = item.gpu.face_offset,
+                   .unused = {}});
+    plan_items_.push_back({.mesh = item.mesh,
+                           .first_index = item.first_index,
+                           .triangle_count = item.index_count / 3,
+                           .buffers = pair,
+                           .is_double_sided = item.state.double_sided});
+  }
+  using Usage = vk::BufferUsageFlagBits;
+  items_ = gpu::uploadBuffer(device_, std::as_bytes(std::span(gpu)), Usage::eUniformTexelBuffer, "the items");
+  items_view_ = items_.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
+}
+
+void ComputeRaster::makeShown() {
+  const auto combination_count = static_cast<std::uint32_t>(assets_.shown().size());
+  std::vector<std::array<std::uint32_t, 2>> table(combination_count);
+  for (std::uint32_t c = 0; c < combination_count; ++c) {
+    std::vector<ShownItem>& shown = shown_.emplace_back();
+    bool can_draw = true;
+    std::uint32_t face = 0;
+    const auto first = static_cast<std::uint32_t>(table.size());
+    for (const SubMeshId id : assets_.shown()[c]) {
+      const DrawItem& item = assets_.items()[id.value];
+      if (item.index_count == 0) continue;
+      can_draw = can_draw && !item.state.cut_out && !item.state.hides_faces && item.gpu.is_covered == 0;
+      shown.push_back({id.value, face});
+      table.push_back({id.value, face});
+      face += item.index_count / 3;
+    }
+    table[c] = {first, static_cast<std::uint32_t>(shown.size())};
+    can_draw_.push_back(can_draw && !shown.empty() ? 1 : 0);
+  }
+  shown_buffer_ = gpu::uploadBuffer(device_, std::as_bytes(std::span(table)),
+                                    vk::BufferUsageFlagBits::eUniformTexelBuffer, "what combinations show");
+  shown_view_ = shown_buffer_.makeTexelView(device_, vk::Format::eR32G32Uint);
+}
+
+void ComputeRaster::createPipelines() {
+  constexpr auto kCompute = vk::ShaderStageFlagBits::eCompute;
+  sampler_ = ENSEMBLE_VK(vk::raii::Sampler(device_.handle(), vk::SamplerCreateInfo{}));  // texelFetch only
+  set_layout_ = gpu::makeSetLayout(device_, kBindings, kCompute);
+  aov_layout_ = gpu::makeSetLayout(device_, kAovBindings, kCompute);
+  const vk::PushConstantRange push{.stageFlags = kCompute, .offset = 0, .size = sizeof(Push)};
+  const auto make_layout = [&](vk::DescriptorSetLayout last) {
+    const std::array<vk::DescriptorSetLayout, 4> layouts = {*layout_.viewLayout(), *set_layout_,
+                                                            *layout_.assetLayout(), last};
+    return ENSEMBLE_VK(vk::raii::PipelineLayout(device_.handle(),
+                                                vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
+                                                                             .pSetLayouts = layouts.data(),
+                                                                             .pushConstantRangeCount = 1,
+                                                                             .pPushConstantRanges = &push}));
+  };
+  pipeline_layout_ = make_layout(*assets_.textures().layout());
+  aov_pipeline_layout_ = make_layout(*aov_layout_);
+
+  struct Constants {
+    std::uint32_t lanes;
+    vk::Bool32 to_sun, textured;
+  };
+  constexpr std::array<vk::SpecializationMapEntry, 3> kEntries = {{
+      {ENSEMBLE_CONSTANT_LANES, offsetof(Constants, lanes), sizeof(std::uint32_t)},
+      {ENSEMBLE_CONSTANT_TO_SUN, offsetof(Constants, to_sun), sizeof(vk::Bool32)},
+      {ENSEMBLE_CONSTANT_TEXTURED, offsetof(Constants, textured), sizeof(vk::Bool32)},
+  }};
+  const auto make = [&](std::span<const std::uint32_t> spirv, bool to_sun, bool textured) {
+    const Constants constants{device_.subgroupSize(), to_sun, textured};
+    const vk::SpecializationInfo info{.mapEntryCount = kEntries.size(),
+                                      .pMapEntries = kEntries.data(),
+                                      .dataSize = sizeof constants,
+                                      .pData = &constants};
+    return gpu::makeComputePipeline(device_, pipeline_layout_, spirv, &info);
+  };
+  camera_pipeline_ = make(kRasterComp, false, false);
+  sun_pipeline_ = make(kRasterComp, true, false);
+  list_ = make(kRasterListComp, false, false);
+  count_bins_ = make(kRasterBinsComp, false, false);
+  sort_ = make(kRasterSortComp, false, false);
+  plain_color_ = make(kRasterColorComp, false, false);
+  textured_color_ = make(kRasterColorComp, false, true);
+  aov_ = gpu::makeComputePipeline(device_, aov_pipeline_layout_, kRasterAovComp);
+}
+
+void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+                         std::span<const std::uint32_t> numbers) {
+  Work& work = workOf(eye);
+  work.people.clear();
+  for (const std::uint32_t number : numbers)
+    work.people.push_back({state.combinations()[number], shown.key(number)});
+  if (work.people.empty()) return;
+  work.plan->build(work.people, work.plan->faceBits(),
+                   [&](std::uint32_t mesh, std::uint32_t key) { return poses_.require(mesh, key); });
+  upload(work, rows, state, numbers);
+}
+
+void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState& state,
+                           std::span<const std::uint32_t> numbers) {
+  using Usage = vk::BufferUsageFlagBits;
+  const auto grow = [&](gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {
+    if (buffer && bytes <= buffer.size()) return false;
+    ++work.number;
+    buffer = gpu::Buffer(device_, bytes + bytes / 2, usage, gpu::Buffer::Kind::kUpload,
+                         "the work of the rasteriser");
+    return true;
+  };
+  const auto copy = [&](gpu::Buffer& buffer, const auto& values) {
+    using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
+    grow(buffer, values.size() * sizeof(Value), Usage::eStorageBuffer);
+    std::copy(values.begin(), values.end(), buffer.mapped<Value>().begin());
+  };
+  copy(work.entries, work.plan->entries());
+  copy(work.work, work.plan->work());
+  copy(work.groups, work.plan->groups());
+  if (grow(work.rows, numbers.size() * sizeof(GpuRasterPerson), Usage::eUniformTexelBuffer))
+    work.rows_view = work.rows.makeTexelView(device_);
+  if (grow(work.who, numbers.size() * sizeof(GpuRasterWho), Usage::eUniformTexelBuffer))
+    work.who_view = work.who.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
+  const std::span<GpuRasterPerson> all_rows = work.rows.mapped<GpuRasterPerson>();
+  const std::span<GpuRasterWho> all_who = work.who.mapped<GpuRasterWho>();
+  const KeyFrames& frames = state.keyFrames();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const GpuCharacter& character = state.characters()[numbers[i]];
+    const std::uint32_t key = work.people[i].key;
+    all_rows[i] = makeRasterPerson(rows, character, frames.boxes[frames.keys[key].clip]);
+    all_who[i] = {character.combination, key, character.tint_seed, character.number};
+  }
+}
+
+std::uint32_t ComputeRaster::binCount() const {
+  return static_cast<std::uint32_t>(bins_.size() * std::max<std::size_t>(poses_.buffers().size(), 1));
+}
+
+ComputeRaster::Target ComputeRaster::makeTarget(Eye eye, const ViewTargets& targets) {
+  using Usage = vk::BufferUsageFlagBits;
+  constexpr auto kUsage = Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc;
+  constexpr auto kKind = gpu::Buffer::Kind::kDevice;
+  Target target;
+  const bool to_sun = eye == Eye::kSun;
+  target.width = to_sun ? targets.size.shadow_size : targets.size.width;
+  target.height = to_sun ? targets.size.shadow_size : targets.size.height;
+  const std::uint64_t pixels = std::uint64_t{target.width} * target.height;
+  target.visible = gpu::Buffer(device_, pixels * (to_sun ? 4 : 8), kUsage, kKind, "the rasteriser's pixels");
+  target.pixels =
+      gpu::Buffer(device_, to_sun ? 0 : pixels * 16, kUsage, kKind, "the rasteriser's list of pixels");
+  return target;
+}
+
+void ComputeRaster::prepare(Eye eye, const ViewTargets& targets, Target& target) {
+  poses_.prepare();
+  const Work& work = workOf(eye);
+  const auto pose_buffers = static_cast<std::uint32_t>(poses_.buffers().size());
+  if (target.pose_buffers != pose_buffers) {
+    const std::uint64_t bins = binCount() + 1;
+    target.bins =
+        gpu::Buffer(device_, bins * sizeof(GpuRasterBin),
+                    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst |
+                        vk::BufferUsageFlagBits::eIndirectBuffer,
+                    gpu::Buffer::Kind::kDevice, "the rasteriser's bins");
+    target.sets = gpu::DescriptorSets(device_, set_layout_, kBindings,
+                                      static_cast<std::uint32_t>(pairs_.size()) * pose_buffers);
+  } else if (target.work_number == work.number) {
+    return;
+  }
+  target.pose_buffers = pose_buffers;
+  target.work_number = work.number;
+  writeSets(work, targets, target);
+}
+
+void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Target& target) const {
+  for (std::size_t i = 0; i < target.sets.size(); ++i) {
+    const vk::DescriptorSet set = target.sets[i];
+    const Pair& pair = pairs_[i % pairs_.size()];
+    const auto buffer = [&](std::uint32_t binding, const gpu::Buffer& bound) {
+      gpu::writeBuffer(device_, set, binding, bound);
+    };
+    const auto texels = [&](std::uint32_t binding, const vk::raii::BufferView& view) {
+      gpu::writeTexelBuffer(device_, set, binding, view);
+    };
+    texels(ENSEMBLE_BINDING_RASTER_PEOPLE, work.rows_view);
+    texels(ENSEMBLE_BINDING_RASTER_WHO, work.who_view);
+    buffer(ENSEMBLE_BINDING_RASTER_ENTRIES, work.entries);
+    buffer(ENSEMBLE_BINDING_RASTER_WORK, work.work);
+    buffer(ENSEMBLE_BINDING_RASTER_GROUPS, work.groups);
+    buffer(ENSEMBLE_BINDING_RASTER_TARGET, target.visible);
+    texels(ENSEMBLE_BINDING_RASTER_INDICES, assets_.indexChunk(pair.index_chunk).texels);
+    texels(ENSEMBLE_BINDING_RASTER_POSES, poses_.buffers()[i / pairs_.size()].texels);
+    texels(ENSEMBLE_BINDING_RASTER_VERTICES, assets_.vertexChunk(pair.vertex_chunk).texels);
+    texels(ENSEMBLE_BINDING_RASTER_ITEMS, items_view_);
+    texels(ENSEMBLE_BINDING_RASTER_SHOWN, shown_view_);
+    texels(ENSEMBLE_BINDING_RASTER_POSE_TABLE, poses_.table());
+    texels(ENSEMBLE_BINDING_RASTER_MATERIALS, materials_view_);
+    texels(ENSEMBLE_BINDING_RASTER_TINTS, tints_view_);
+    buffer(ENSEMBLE_BINDING_RASTER_PIXELS, target.pixels);
+    buffer(ENSEMBLE_BINDING_RASTER_BINS, target.bins);
+    gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DEPTH, targets.depth, &sampler_,
+                    vk::ImageLayout::eShaderReadOnlyOptimal);
+    gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_PICTURE, targets.linear, nullptr,
+                    vk::ImageLayout::eGeneral);
+  }
+}
+
+void ComputeRaster::makeAovSet(const ViewTargets& targets, Target& target) const {
+  if (target.aov_set.size() > 0) return;
+  target.aov_set = gpu::DescriptorSets(device_, aov_layout_, kAovBindings, 1);
+  for (std::uint32_t i = 0; i < targets.aovs.size(); ++i)
+    gpu::writeImage(device_, target.aov_set[0], i, targets.aovs[i], nullptr, vk::ImageLayout::eGeneral);
+}
+
+ComputeRaster::Push ComputeRaster::pushFor(const Work& work, const Target& target, float near_plane) const {
+  return {.face_bits = work.plan->faceBits(),
+          .width = target.width,
+          .height = target.height,
+          .near_plane = near_plane,
+          .bin = static_cast<std::uint32_t>(bins_.size()),
+          .bin_count = binCount()};
+}
+
+void ComputeRaster::record(const vk::raii::CommandBuffer& commands, Eye eye, vk::DescriptorSet view_set,
+                           const Target& target, float near_plane) const {
+  const Work& work = workOf(eye);
+  gpu::recordBarrier(commands, Stage::eComputeShader | Stage::eTransfer, {}, Stage::eTransfer,
+                     Access::eTransferWrite);
+  commands.fillBuffer(target.visible.handle(), 0, VK_WHOLE_SIZE, 0);
+  gpu::recordBarrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
+                     Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute,
+                        eye == Eye::kSun ? *sun_pipeline_ : *camera_pipeline_);
+  Push push = pushFor(work, target, eye == Eye::kSun ? kShadowSlopeBias : near_plane);
+  for (const PlanBatch& batch : work.plan->batches()) {
+    const std::array<vk::DescriptorSet, 2> sets = {
+        view_set, target.sets[batch.pose_buffer * pairs_.size() + batch.buffers]};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
+                                nullptr);
+    push.first_group = batch.first_group;
+    push.group_count = batch.group_count;
+    commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+    gpu::recordDispatch(commands, batch.group_count, ENSEMBLE_RASTER_GROUPS_X);
+  }
+  gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
+                     Stage::eComputeShader | Stage::eTransfer,
+                     Access::eShaderStorageRead | Access::eTransferRead);
+}
+
+void ComputeRaster::recordShadowMap(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
+                                    const Target& target) {
+  commands.copyBufferToImage(
+      target.visible.handle(), targets.shadow_map.handle(), vk::ImageLayout::eTransferDstOptimal,
+      vk::BufferImageCopy{
+          .imageSubresource = {.aspectMask = vk::ImageAspectFlagBits::eDepth, .layerCount = 1},
+          .imageExtent = {target.width, target.height, 1}});
+}
+
+void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, const Target& target,
+                               const Push& push, vk::DescriptorSet view_set) const {
+  gpu::recordBarrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, {}, Stage::eTransfer,
+                     Access::eTransferWrite);
+  commands.fillBuffer(target.bins.handle(), 0, VK_WHOLE_SIZE, 0);
+  gpu::recordBarrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
+                     Access::eShaderStorageRead | Access::eShaderStorageWrite);
+  const std::array<vk::DescriptorSet, 2> sets = {view_set, target.sets[0]};
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
+                              nullptr);
+  commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  const auto groups = static_cast<std::uint32_t>(
+      (std::uint64_t{target.width} * target.height + ENSEMBLE_LIST_GROUP - 1) / ENSEMBLE_LIST_GROUP);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *list_);
+  gpu::recordDispatch(commands, groups, ENSEMBLE_RASTER_GROUPS_X);
+  recordComputeBarrier(commands);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *count_bins_);
+  commands.dispatch(1, 1, 1);
+  recordComputeBarrier(commands);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sort_);
+  commands.dispatchIndirect(target.bins.handle(), std::uint64_t{push.bin_count} * sizeof(GpuRasterBin) +
+                                                      offsetof(GpuRasterBin, groups_x));
+  recordComputeBarrier(commands);
+}
+
+template <class Bind>
+void ComputeRaster::recordBins(const vk::raii::CommandBuffer& commands, const Target& target, Push push,
+                               const Bind& bind) const {
+  for (std::uint32_t i = 0; i < push.bin_count; ++i) {
+    const Bin& bin = bins_[i % bins_.size()];
+    const std::size_t pose_buffer = i / bins_.size();
+    push.bin = i;
+    bind(bin, target.sets[pose_buffer * pairs_.size() + bin.pair], push);
+    commands.dispatchIndirect(target.bins.handle(),
+                              i * sizeof(GpuRasterBin) + offsetof(GpuRasterBin, groups_x));
+  }
+}
+
+void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                                const ViewTargets& targets, const Target& target, float near_plane) const {
+  const Push push = pushFor(camera_, target, near_plane);
+  recordList(commands, target, push, view_set);
+  gpu::recordBarrier(commands, targets.linear,
+                     {.from_stage = Stage::eComputeShader | Stage::eColorAttachmentOutput,
+                      .to_stage = Stage::eComputeShader,
+                      .from_access = Access::eColorAttachmentWrite,
+                      .to_access = Access::eShaderStorageWrite,
+                      .from = vk::ImageLayout::eShaderReadOnlyOptimal,
+                      .to = vk::ImageLayout::eGeneral});
+  recordBins(commands, target, push, [&](const Bin& bin, vk::DescriptorSet set, const Push& own) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, bin.textured ? *textured_color_ : *plain_color_);
+    const std::array<vk::DescriptorSet, 4> sets = {view_set, set,
+                                                   layout_.assetSet(pairs_[bin.pair].index_chunk),
+                                                   assets_.textures().set(bin.texture_set)};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
+                                nullptr);
+    commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, own);
+  });
+  gpu::recordBarrier(commands, targets.linear,
+                     {.from_stage = Stage::eComputeShader,
+                      .to_stage = Stage::eComputeShader,
+                      .from_access = Access::eShaderStorageWrite,
+                      .to_access = Access::eShaderSampledRead,
+                      .from = vk::ImageLayout::eGeneral,
+                      .to = vk::ImageLayout::eShaderReadOnlyOptimal});
+}
+
+void ComputeRaster::recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                               const ViewTargets& /*targets*/, const Target& target, float near_plane) const {
+  const Push push = pushFor(camera_, target, near_plane);
+  recordList(commands, target, push, view_set);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *aov_);
+  recordBins(commands, target, push, [&](const Bin& bin, vk::DescriptorSet set, const Push& own) {
+    const std::array<vk::DescriptorSet, 4> sets = {
+        view_set, set, layout_.assetSet(pairs_[bin.pair].index_chunk), target.aov_set[0]};
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *aov_pipeline_layout_, ENSEMBLE_SET_VIEW,
+                                sets, nullptr);
+    commands.pushConstants<Push>(*aov_pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, own);
+  });
+}
+
+}  // namespace ensemble

@@ -1,0 +1,144 @@
+// Our own rasteriser of small triangles, in compute shaders: into a buffer of (depth, id) for each pixel,
+// from which the pixels where somebody is in front are listed, sorted by the buffers and textures that they
+// need, and shaded. The shadow map gets its depths by the same rasteriser.
+//
+// It draws people at key frames (ViewPeople); all others the graphics pipeline does, and the two meet by
+// depth.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "renderer/crowd_assets.h"
+#include "renderer/crowd_layout.h"
+#include "renderer/crowd_state.h"
+#include "renderer/pose_pool.h"
+#include "renderer/raster_people.h"
+#include "renderer/raster_plan.h"
+#include "renderer/view_targets.h"
+
+namespace ensemble {
+
+struct ComputeRasterOptions {
+  std::uint64_t pose_cache_bytes = 0;
+  std::uint64_t max_buffer_bytes = 0;
+};
+
+class ComputeRaster {
+ public:
+  /// What to see people from: the camera or the sun.
+  enum class Eye : std::uint8_t { kCamera, kSun };
+
+  /// One eye's people and work, and the buffers they go through.
+  struct Work {
+    Eye eye = Eye::kCamera;
+    std::unique_ptr<RasterPlan> plan;
+    std::vector<PlanPerson> people;
+    std::uint32_t number = 0;  ///< changes when a buffer is another one
+    gpu::Buffer rows, who, entries, work, groups;
+    vk::raii::BufferView rows_view = nullptr, who_view = nullptr;
+  };
+
+  /// What is drawn into, with a view's slot.
+  struct Target {
+    std::uint32_t width = 0, height = 0;
+    gpu::Buffer visible;  ///< camera: depth and id of a pixel; sun: depth of a texel
+    gpu::Buffer pixels, bins;
+    gpu::DescriptorSets sets;  ///< per pair of buffers and buffer of poses
+    gpu::DescriptorSets aov_set;
+    std::uint32_t work_number = 0, pose_buffers = 0;
+  };
+
+  /// What it refers to must outlive it. @pre device.canRasterise()
+  ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
+                const CrowdState& state, const ComputeRasterOptions& options);
+
+  /// Whether all that a combination shows can be drawn here.
+  bool canDraw(std::uint32_t combination) const { return can_draw_[combination] != 0; }
+
+  void beginFrame() { poses_.beginFrame(); }
+  /// Plans an eye's work. @param numbers of people in the crowd, ascending; they have keys
+  void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+            std::span<const std::uint32_t> numbers);
+  bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
+  std::uint64_t triangleCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->triangleCount() : 0; }
+  const PosePool& poses() const { return poses_; }
+
+  Target makeTarget(Eye eye, const ViewTargets& targets);
+  /// Makes sets right for the work that was planned. @pre the device is idle
+  void prepare(Eye eye, const ViewTargets& targets, Target& target);
+
+  /// Skins what poses are new; before the first of the others.
+  void recordPoses(const vk::raii::CommandBuffer& commands) { poses_.record(commands); }
+  /// Clears the target and rasterises.
+  void record(const vk::raii::CommandBuffer& commands, Eye eye, vk::DescriptorSet view_set,
+              const Target& target, float near_plane) const;
+  /// Fills the shadow map with what record() left, in layout eTransferDstOptimal, and leaves it there.
+  static void recordShadowMap(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
+                              const Target& target);
+  /// Shades into `targets.linear` where people are in front of `targets.depth`, which is readable by compute
+  /// shaders; both as ColorPass leaves them.
+  void recordColor(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                   const ViewTargets& targets, const Target& target, float near_plane) const;
+  /// The same into the images of the AOVs, in layout eGeneral.
+  void recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                  const ViewTargets& targets, const Target& target, float near_plane) const;
+  void makeAovSet(const ViewTargets& targets, Target& target) const;
+
+ private:
+  /// Items of a bin are shaded with the same buffers and textures bound.
+  struct Bin {
+    std::uint32_t pair = 0, texture_set = 0;
+    bool textured = false;
+    auto operator<=>(const Bin&) const = default;
+  };
+  /// Chunks of indices and vertices that items are in.
+  struct Pair {
+    std::uint32_t index_chunk = 0, vertex_chunk = 0;
+    auto operator<=>(const Pair&) const = default;
+  };
+  struct Push;
+
+  Work& workOf(Eye eye) { return eye == Eye::kCamera ? camera_ : sun_; }
+  const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_; }
+  void makeItems();
+  void makeShown();
+  void createPipelines();
+  void upload(Work& work, const ScreenRows& rows, const CrowdState& state,
+              std::span<const std::uint32_t> numbers);
+  void writeSets(const Work& work, const ViewTargets& targets, Target& target) const;
+  std::uint32_t binCount() const;
+  Push pushFor(const Work& work, const Target& target, float near_plane) const;
+  /// Lists the pixels and sorts them by bin. @param depth image it is compared with
+  void recordList(const vk::raii::CommandBuffer& commands, const Target& target, const Push& push,
+                  vk::DescriptorSet view_set) const;
+  /// Calls shade(bin) with that bin's sets bound and its pixels to be dispatched.
+  template <class Bind>
+  void recordBins(const vk::raii::CommandBuffer& commands, const Target& target, Push push,
+                  const Bind& bind) const;
+
+  gpu::Device& device_;
+  const CrowdLayout& layout_;
+  const CrowdAssets& assets_;
+  ComputeRasterOptions options_;
+  PosePool poses_;
+  std::vector<Pair> pairs_;
+  std::vector<Bin> bins_;
+  std::vector<PlanItem> plan_items_;
+  std::vector<std::vector<ShownItem>> shown_;
+  std::vector<std::uint8_t> can_draw_;
+  gpu::Buffer items_, shown_buffer_;
+  vk::raii::BufferView items_view_ = nullptr, shown_view_ = nullptr, materials_view_ = nullptr,
+                       tints_view_ = nullptr;
+  Work camera_, sun_;
+  vk::raii::Sampler sampler_ = nullptr;
+  vk::raii::DescriptorSetLayout set_layout_ = nullptr, aov_layout_ = nullptr;
+  vk::raii::PipelineLayout pipeline_layout_ = nullptr, aov_pipeline_layout_ = nullptr;
+  vk::raii::Pipeline camera_pipeline_ = nullptr, sun_pipeline_ = nullptr, list_ = nullptr,
+                     count_bins_ = nullptr, sort_ = nullptr, plain_color_ = nullptr,
+                     textured_color_ = nullptr, aov_ = nullptr;
+};
+
+}  // namespace ensemble

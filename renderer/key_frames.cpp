@@ -1,0 +1,41 @@
+#include "renderer/key_frames.h"
+
+#include <algorithm>
+
+#include "shaders/shared/raster_types.h"
+
+namespace ensemble {
+
+std::uint32_t KeyFrames::firstOfWardrobe(std::uint32_t wardrobe) const {
+  const std::uint32_t clip = clip_of_wardrobe[wardrobe];
+  return clip < first_of_clip.size() ? first_of_clip[clip] : static_cast<std::uint32_t>(keys.size());
+}
+
+KeyFrames numberKeyFrames(const Animation& animation) {
+  constexpr float kSteps = (1u << ENSEMBLE_POSE_POSITION_BITS) - 1u;
+  KeyFrames frames;
+  frames.clips = animation.clips;
+  frames.clip_of_wardrobe = animation.first_clip;
+  frames.clip_of_wardrobe.push_back(static_cast<std::uint32_t>(animation.clips.size()));
+  for (std::uint32_t c = 0; c < animation.clips.size(); ++c) {
+    const GpuClip& clip = animation.clips[c];
+    frames.first_of_clip.push_back(static_cast<std::uint32_t>(frames.keys.size()));
+    for (std::uint32_t key = 0; key < clip.key_count; ++key)
+      frames.keys.push_back({c, clip.first_matrix + key * clip.joint_count});
+    const Sphere& bounds = animation.bounds[c];
+    const float radius = std::max(bounds.radius, 1e-3f);
+    frames.boxes.push_back({bounds.center - Vec3(radius), 2.0f * radius / kSteps});
+  }
+  return frames;
+}
+
+std::uint32_t nearestKey(const KeyFrames& frames, const GpuCharacter& character) {
+  const bool is_idle = character.idle_weight >= 0.5f;
+  const std::uint32_t clip = is_idle ? character.idle_clip : character.clip;
+  const float phase = is_idle ? character.idle_phase : character.phase;
+  const std::uint32_t last = frames.clips[clip].key_count - 1;
+  const auto key = static_cast<std::uint32_t>(phase * static_cast<float>(last) + 0.5f);
+  return frames.first_of_clip[clip] + std::min(key, last);
+}
+
+}  // namespace ensemble

@@ -1,0 +1,28 @@
+// From people and views to what the compute rasteriser reads of them, and to whom it can draw. Pure
+// functions.
+#pragma once
+
+#include "renderer/key_frames.h"
+#include "renderer/view_setup.h"
+#include "shaders/shared/raster_types.h"
+
+namespace ensemble {
+
+/// From the world to sub-pixels of a target, counted from the centre of its first pixel. Double precision,
+/// since a person's matrix is multiplied in.
+struct ScreenRows {
+  glm::dvec4 x, y;
+  glm::dvec4 z;  ///< to the camera: w; to the sun: depth
+};
+/// Of a view's tile: x and y still to be divided by w.
+ScreenRows cameraRows(const View& view, const Tile& tile);
+ScreenRows sunRows(const ShadowFit& fit);
+
+GpuRasterPerson makeRasterPerson(const ScreenRows& rows, const GpuCharacter& character, const KeptBox& box);
+
+/// Whether no triangle of somebody can get too large for fixed-point edge functions, nor comes near the
+/// camera's plane. @param longest_edge of the triangles, metres, scale included
+bool fitsCamera(const View& view, const Sphere& bounds, float longest_edge);
+bool fitsSun(const ShadowFit& fit, float longest_edge);
+
+}  // namespace ensemble

@@ -1,0 +1,96 @@
+// The work of the compute rasteriser: people who show one index list in one pose are drawn together, run of
+// triangles by run of triangles. No Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shaders/shared/raster_types.h"
+
+namespace ensemble {
+
+/// A sub-mesh as the plan sees it.
+struct PlanItem {
+  std::uint32_t mesh = 0;
+  std::uint32_t first_index = 0, triangle_count = 0;
+  std::uint32_t buffers = 0;  ///< which buffers of indices and vertices it is in
+  bool is_double_sided = false;
+};
+
+/// An item that a combination shows, and the number of its first face in who wears it.
+struct ShownItem {
+  std::uint32_t item = 0, first_face = 0;
+};
+
+/// Somebody to draw.
+struct PlanPerson {
+  std::uint32_t combination = 0;
+  std::uint32_t key = 0;  ///< of all wardrobes' keys: who have the same are in the same pose
+};
+
+/// Groups that are drawn with the same buffers bound.
+struct PlanBatch {
+  std::uint32_t buffers = 0, pose_buffer = 0;
+  std::uint32_t first_group = 0, group_count = 0;
+};
+
+/// Where a mesh's pose at a key lies; asked once for each that is drawn.
+struct PlanPose {
+  std::uint32_t buffer = 0, first_vertex = 0;
+};
+
+class RasterPlan {
+ public:
+  /// @param shown per combination @param key_count of all wardrobes @param triangles_per_group at least 1
+  RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<ShownItem>> shown, std::uint32_t key_count,
+             std::uint32_t triangles_per_group);
+
+  /// Plans for people in the order of their ids. `pose_of(mesh, key)` gives a PlanPose.
+  template <class PoseOf>
+  void build(std::span<const PlanPerson> people, std::uint32_t face_bits, const PoseOf& pose_of) {
+    sortByKey(people);
+    beginWork();
+    for (const Block& block : blocks_) {
+      gather(block, people, face_bits);
+      for (const std::uint32_t item : touched_) addWork(item, pose_of(items_[item].mesh, block.key));
+    }
+    finishWork();
+  }
+
+  const std::vector<std::uint32_t>& entries() const { return entries_; }
+  const std::vector<GpuRasterWork>& work() const { return work_; }
+  const std::vector<GpuRasterGroup>& groups() const { return groups_; }
+  const std::vector<PlanBatch>& batches() const { return batches_; }
+  std::uint64_t triangleCount() const { return triangle_count_; }  ///< of all people
+  /// Bits that number the faces of any one person.
+  std::uint32_t faceBits() const { return face_bits_; }
+
+ private:
+  /// People of one key, in by_key_.
+  struct Block {
+    std::uint32_t key = 0, first = 0, count = 0;
+  };
+  void sortByKey(std::span<const PlanPerson> people);
+  void beginWork();
+  /// Entries of all people of a block, item by item; touched_ are its items, with ranges in entry_first_ ...
+  void gather(const Block& block, std::span<const PlanPerson> people, std::uint32_t face_bits);
+  void addWork(std::uint32_t item, const PlanPose& pose);
+  void finishWork();
+
+  std::vector<PlanItem> items_;
+  std::vector<std::vector<ShownItem>> shown_;
+  std::uint32_t triangles_per_group_ = 1, face_bits_ = 1;
+
+  std::vector<std::uint32_t> key_cursors_, by_key_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> touched_, item_first_, item_count_;  // of the block at hand, per item
+  std::vector<std::uint32_t> entries_;
+  std::vector<GpuRasterWork> work_;
+  std::vector<PlanBatch> work_batch_;  // per work item: its buffers
+  std::vector<GpuRasterGroup> groups_;
+  std::vector<PlanBatch> batches_;
+  std::uint64_t triangle_count_ = 0;
+};
+
+}  // namespace ensemble

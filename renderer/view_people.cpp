@@ -1,0 +1,51 @@
+#include "renderer/view_people.h"
+
+#include <algorithm>
+
+#include "renderer/raster_people.h"
+
+namespace ensemble {
+namespace {
+
+// `auto`: below so many people the passes over the picture cost more than the graphics pipeline does, and
+// people taller than that have triangles that it draws as well.
+constexpr std::size_t kLeastPeople = 64;
+constexpr float kTallest = 320.0f;  // pixels
+
+}  // namespace
+
+void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames& frames,
+                        const PeopleAtTime& people, std::span<const std::uint32_t> seen,
+                        std::span<const std::uint32_t> casters, bool may_compute) {
+  const std::size_t count = people.characters.size();
+  keys_.assign(count, kExact);
+  is_computed_.assign(count, 0);
+  casts_computed_.assign(count, 0);
+  const bool is_auto = view.raster == RasterKind::kAuto;
+  const bool computes = may_compute && view.raster != RasterKind::kPipeline;
+  const auto set_key = [&](std::uint32_t p) {
+    const vec4(&rows)[3] = people.characters[p].world_from_model;
+    const float size = sizeOnScreen(view, Vec3(rows[0].w, rows[1].w, rows[2].w), people.heights[p]);
+    if (size < view.snap_below) keys_[p] = nearestKey(frames, people.characters[p]);
+    return size;
+  };
+  std::size_t computed = 0, cast = 0;
+  for (const std::uint32_t p : seen) {
+    const float size = set_key(p);
+    is_computed_[p] = computes && keys_[p] != kExact && people.can_be_computed[p] != 0 &&
+                      (!is_auto || size <= kTallest) &&
+                      fitsCamera(view, people.bounds[p], people.longest_edges[p]);
+    computed += is_computed_[p];
+  }
+  for (const std::uint32_t p : casters) {
+    set_key(p);
+    casts_computed_[p] = computes && keys_[p] != kExact && people.can_be_computed[p] != 0 &&
+                         fitsSun(fit, people.longest_edges[p]);
+    cast += casts_computed_[p];
+  }
+  if (!is_auto) return;
+  if (computed < kLeastPeople) std::fill(is_computed_.begin(), is_computed_.end(), std::uint8_t{0});
+  if (cast < kLeastPeople) std::fill(casts_computed_.begin(), casts_computed_.end(), std::uint8_t{0});
+}
+
+}  // namespace ensemble

@@ -1,0 +1,147 @@
+// Rasterises small triangles: lanes hold triangles of one mesh in one pose, in a loop over the people who come by
+// that pose. A sample keeps the greatest of (depth, person, face), so that the order of work does not matter and
+// equal depths go to the lower person and face.
+//
+// Where shaders run on the CPU a branch is a mask and a loop's body runs at least once: hence loops that end at
+// their end, and no tests around what costs little.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/raster_types.h"
+#include "shaders/raster_sets.glsl"
+
+layout(local_size_x_id = ENSEMBLE_CONSTANT_LANES) in;  // one subgroup
+layout(constant_id = ENSEMBLE_CONSTANT_TO_SUN) const bool kToSun = false;
+
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ENTRIES, std430) readonly buffer Entries {
+  uint entries[];  // id of the person's first face of the item
+};
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_WORK, std430) readonly buffer AllWork {
+  GpuRasterWork all_work[];
+};
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_GROUPS, std430) readonly buffer Groups {
+  GpuRasterGroup groups[];
+};
+// One of the two: to the camera depth and id, to the sun depth alone.
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer Visible { uint64_t visible[]; };
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer SunDepth { uint sun_depth[]; };
+
+const int kSubpixels = 1 << ENSEMBLE_SUBPIXEL_BITS;
+
+struct Screen {
+  ivec2 at;  // sub-pixels from the centre of pixel (0, 0)
+  float depth;
+};
+
+Screen toScreen(vec3 position, vec4 row[3]) {
+  vec4 p = vec4(position, 1.0);
+  vec3 c = vec3(dot(row[0], p), dot(row[1], p), dot(row[2], p));
+  Screen s;
+  if (kToSun) {
+    s.at = ivec2(roundEven(c.xy));
+    s.depth = c.z;
+  } else {
+    float q = 1.0 / c.z;
+    s.at = ivec2(roundEven(c.xy * q));
+    s.depth = near_plane * q;
+  }
+  return s;
+}
+
+// What a sample gets: depth in front of everything else, then the lower id.
+void keep(int pixel, float depth, uint id) {
+  if (kToSun) {
+    atomicMax(sun_depth[pixel], floatBitsToUint(clamp(depth, 0.0, 1.0)));
+  } else {
+    atomicMax(visible[pixel], uint64_t(floatBitsToUint(depth)) << 32 | uint64_t(~id));
+  }
+}
+
+// Fixed-point edge functions, top-left rule. Extents of a triangle are below 2^15 sub-pixels: whoever has larger
+// ones is drawn by the graphics pipeline.
+void rasterise(Screen a, Screen b, Screen c, bool double_sided, uint id, bool is_there) {
+  ivec2 ab = b.at - a.at, ac = c.at - a.at;
+  int area = ac.x * ab.y - ac.y * ab.x;
+  if (double_sided && area < 0) {
+    Screen t = b;
+    b = c;
+    c = t;
+    ab = b.at - a.at;
+    ac = c.at - a.at;
+    area = -area;
+  }
+  ivec2 low = max((min(a.at, min(b.at, c.at)) + (kSubpixels - 1)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
+  ivec2 high = min(max(a.at, max(b.at, c.at)) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
+  if (is_there && area > 0 && low.x <= high.x && low.y <= high.y) {
+    ivec2 bc = c.at - b.at, from = low << ENSEMBLE_SUBPIXEL_BITS;
+    // Twice the areas opposite of b and c, and of a, at the first pixel; steps to the right and down.
+    int e_b = ac.y * (a.at.x - from.x) - ac.x * (a.at.y - from.y);
+    int e_c = ab.x * (a.at.y - from.y) - ab.y * (a.at.x - from.x);
+    int e_a = area - e_b - e_c;
+    ivec3 right = ivec3(bc.y, -ac.y, ab.y) << ENSEMBLE_SUBPIXEL_BITS;
+    ivec3 down = ivec3(-bc.x, ac.x, -ab.x) << ENSEMBLE_SUBPIXEL_BITS;
+    float per_area = 1.0 / float(area);
+    float by_b = (b.depth - a.depth) * per_area, by_c = (c.depth - a.depth) * per_area;
+    float nearest = a.depth;
+    if (kToSun) {
+      vec2 slope = abs(vec2(by_b * float(right.y) + by_c * float(right.z), by_b * float(down.y) + by_c * float(down.z)));
+      nearest += near_plane * max(slope.x, slope.y);
+    }
+    // An edge owns its points where it is a top or a left one.
+    ivec3 owned = ivec3(greaterThan(right * 2 + sign(down), ivec3(0))) - 1;
+    ivec3 e = ivec3(e_a, e_b, e_c) + owned;
+    int columns = high.x - low.x, x = 0;
+    ivec3 next_row = down - columns * right;
+    int pixel = low.y * int(width) + low.x, last = high.y * int(width) + high.x, next_pixel = int(width) - columns;
+    [[dont_unroll]] for (;;) {
+      if ((e.x | e.y | e.z) >= 0) keep(pixel, nearest + by_b * float(e.y) + by_c * float(e.z), id);
+      bool wraps = x == columns;
+      x = wraps ? 0 : x + 1;
+      pixel += wraps ? next_pixel : 1;
+      e += wraps ? next_row : right;
+      if (pixel > last) break;
+    }
+  }
+}
+
+void main() {
+  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
+  if (number >= group_count) return;
+  GpuRasterGroup group = groups[first_group + number];
+  GpuRasterWork work = all_work[group.work];
+  const uint lanes = gl_WorkGroupSize.x, lane = gl_LocalInvocationID.x;
+  const uint run = lanes * ENSEMBLE_RASTER_RUN;
+  uint triangle_end = min(group.first_triangle + run, work.triangle_count);
+  bool double_sided = (work.flags & ENSEMBLE_WORK_DOUBLE_SIDED) != 0u;
+
+  uint first_entry = 0u;
+  [[dont_unroll]] for (;;) {
+    uint entry = entries[work.first_entry + min(first_entry + lane, work.entry_count - 1u)];
+    int person = int(entry >> face_bits) * ENSEMBLE_PERSON_TEXELS;
+    vec4 rows[3] = vec4[3](texelFetch(people, person), texelFetch(people, person + 1), texelFetch(people, person + 2));
+    uint people_count = min(work.entry_count - first_entry, lanes);
+    uint triangle = group.first_triangle;
+    [[dont_unroll]] for (;;) {
+      uint mine = min(triangle + lane, triangle_end - 1u);
+      int corner = int(work.first_index + 3u * mine);
+      int pose = int(work.pose);
+      vec3 p = keptPosition(texelFetch(poses, pose + int(texelFetch(indices, corner).x)).xy);
+      vec3 q = keptPosition(texelFetch(poses, pose + int(texelFetch(indices, corner + 1).x)).xy);
+      vec3 r = keptPosition(texelFetch(poses, pose + int(texelFetch(indices, corner + 2).x)).xy);
+      uint j = 0u;
+      [[dont_unroll]] for (;;) {
+        vec4 row[3] = vec4[3](subgroupShuffle(rows[0], j), subgroupShuffle(rows[1], j), subgroupShuffle(rows[2], j));
+        rasterise(toScreen(p, row), toScreen(q, row), toScreen(r, row), double_sided, subgroupShuffle(entry, j) + mine,
+                  triangle + lane < triangle_end);
+        if (++j >= people_count) break;
+      }
+      triangle += lanes;
+      if (triangle >= triangle_end) break;
+    }
+    first_entry += lanes;
+    if (first_entry >= work.entry_count) break;
+  }
+}

@@ -1,0 +1,22 @@
+// Where each bin's pixels begin in the sorted list, and how many groups shade them. One invocation.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/raster_types.h"
+#include "shaders/raster_sets.glsl"
+#include "shaders/raster_pixels.glsl"
+
+layout(local_size_x = 1) in;
+
+void main() {
+  uint first = width * height;  // behind those found
+  for (uint i = 0u; i <= bin_count; ++i) {
+    uint count = bins[i].count;
+    uint groups = (count + ENSEMBLE_LIST_GROUP - 1u) / ENSEMBLE_LIST_GROUP;
+    bins[i].first = i < bin_count ? first : 0u;
+    bins[i].cursor = first;
+    bins[i].groups_x = min(groups, ENSEMBLE_RASTER_GROUPS_X);
+    bins[i].groups_y = (groups + ENSEMBLE_RASTER_GROUPS_X - 1u) / ENSEMBLE_RASTER_GROUPS_X;
+    bins[i].groups_z = 1u;
+    first += count;
+  }
+}

@@ -1,0 +1,31 @@
+// What a pixel of the compute rasteriser shows: person, item and triangle, and where in the triangle. Included
+// after raster_sets.glsl.
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) readonly buffer Visible {
+  uvec2 visible[];  // id, inverted; depth
+};
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_VERTICES) uniform usamplerBuffer vertices;
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ITEMS) uniform usamplerBuffer items;
+// Per combination: where its items begin below, and how many they are. Then per combination and item: the item
+// and the number of its first face in the person.
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_SHOWN) uniform usamplerBuffer shown;
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_POSE_TABLE) uniform usamplerBuffer pose_table;
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_PIXELS, std430) buffer Pixels {
+  uvec2 pixels[];  // pixel; item. First those found, then the same sorted by bin
+};
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_BINS, std430) buffer Bins {
+  GpuRasterBin bins[];  // the last is of all
+};
+
+// The item that a face of a person belongs to, and the item's first face.
+uvec2 itemOfFace(uint combination, uint face) {
+  uvec2 range = texelFetch(shown, int(combination)).xy;
+  uint low = 0u, count = range.y;
+  // The last item that begins no later. As many steps for all lanes: a loop's end is a test of all.
+  while (count > 1u) {
+    uint half_count = count / 2u;
+    bool later = texelFetch(shown, int(range.x + low + half_count)).y <= face;
+    low += later ? half_count : 0u;
+    count -= half_count;
+  }
+  return texelFetch(shown, int(range.x + low)).xy;
+}

@@ -1,0 +1,97 @@
+// The surface at a listed pixel. Included after raster_pixels.glsl.
+struct Surface {
+  uint pixel;
+  uvec4 person;  // GpuRasterWho
+  uvec4 item_0, item_1, item_2;
+  uint triangle;      // of the item
+  uint first_vertex;  // of the triangle, texels
+  float depth;
+  vec3 world;
+  vec3 normal;  // world space, towards the viewer's side of a front face; not of unit length
+  bool is_front;
+  vec2 uv;
+  vec2 uv_right, uv_down;  // what a pixel more adds to it
+};
+
+const float kPixel = float(1 << ENSEMBLE_SUBPIXEL_BITS);
+
+vec3 cornerOnScreen(int person, vec3 kept) {
+  vec4 p = vec4(kept, 1.0);
+  return vec3(dot(texelFetch(people, person), p), dot(texelFetch(people, person + 1), p), dot(texelFetch(people, person + 2), p));
+}
+
+vec3 keptNormal(uvec2 kept) {
+  uint n = (kept.x >> 30) | (kept.y >> ENSEMBLE_POSE_POSITION_BITS) << 2;
+  const uint most_x = (1u << ENSEMBLE_POSE_NORMAL_X_BITS) - 1u, most_y = (1u << ENSEMBLE_POSE_NORMAL_Y_BITS) - 1u;
+  vec2 e = vec2(float(n & most_x) / float(most_x), float(n >> ENSEMBLE_POSE_NORMAL_X_BITS) / float(most_y));
+  return decodeOctahedral(e * 2.0 - 1.0);
+}
+
+// Perspective-correct shares of a triangle's corners at a place on the screen, in sub-pixels; and their sign.
+vec3 sharesAt(vec3 a, vec3 b, vec3 c, vec2 at) {
+  vec2 p = a.xy - at * a.z, q = b.xy - at * b.z, r = c.xy - at * c.z;
+  return vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
+}
+
+vec3 unitShares(vec3 shares) {
+  shares = clamp(shares / (shares.x + shares.y + shares.z), 0.0, 1.0);
+  return shares / (shares.x + shares.y + shares.z);
+}
+
+vec2 vertexUv(uint vertex) {
+  return uintBitsToFloat(texelFetch(vertices, int(vertex * 5u + 2u)).xy);
+}
+
+Surface surfaceAt(uvec2 listed, bool textured) {
+  Surface s;
+  s.pixel = listed.x;
+  uvec2 key = visible[s.pixel];
+  s.depth = uintBitsToFloat(key.y);
+  uint id = ~key.x;
+  s.person = texelFetch(who, int(id >> face_bits));
+  uint item = (listed.y & 0xfffffu);
+  int item_texel = int(item * ENSEMBLE_RASTER_ITEM_TEXELS);
+  s.item_0 = texelFetch(items, item_texel);
+  s.item_1 = texelFetch(items, item_texel + 1);
+  s.item_2 = texelFetch(items, item_texel + 2);
+  uint face = id & ((1u << face_bits) - 1u);
+  s.triangle = face - itemOfFace(s.person.x, face).y;
+
+  uint pose = texelFetch(pose_table, int(s.item_0.z + s.person.y)).x & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u);
+  int corner = int(s.item_0.x + 3u * s.triangle);
+  uvec3 index = uvec3(texelFetch(indices, corner).x, texelFetch(indices, corner + 1).x, texelFetch(indices, corner + 2).x);
+  uvec2 kept_a = texelFetch(poses, int(pose + index.x)).xy;
+  uvec2 kept_b = texelFetch(poses, int(pose + index.y)).xy;
+  uvec2 kept_c = texelFetch(poses, int(pose + index.z)).xy;
+  vec3 a = keptPosition(kept_a), b = keptPosition(kept_b), c = keptPosition(kept_c);
+  int person = int(id >> face_bits) * ENSEMBLE_PERSON_TEXELS;
+  vec3 on_a = cornerOnScreen(person, a), on_b = cornerOnScreen(person, b), on_c = cornerOnScreen(person, c);
+  vec2 at = vec2(float(s.pixel % width), float(s.pixel / width)) * kPixel;
+  vec3 shares = sharesAt(on_a, on_b, on_c, at);
+  s.is_front = shares.x + shares.y + shares.z < 0.0;
+  vec3 part = unitShares(shares);
+
+  vec4 place = vec4(a * part.x + b * part.y + c * part.z, 1.0);
+  vec3 n = keptNormal(kept_a) * part.x + keptNormal(kept_b) * part.y + keptNormal(kept_c) * part.z;
+  vec4 world[3] = vec4[3](texelFetch(people, person + 3), texelFetch(people, person + 4), texelFetch(people, person + 5));
+  s.world = vec3(dot(world[0], place), dot(world[1], place), dot(world[2], place));
+  s.normal = vec3(dot(world[0].xyz, n), dot(world[1].xyz, n), dot(world[2].xyz, n));
+  s.first_vertex = s.item_0.y + index.x;
+  if (textured) {
+    vec2 uv_a = vertexUv(s.first_vertex), uv_b = vertexUv(s.item_0.y + index.y), uv_c = vertexUv(s.item_0.y + index.z);
+    vec3 right = sharesAt(on_a, on_b, on_c, at + vec2(kPixel, 0.0)), down = sharesAt(on_a, on_b, on_c, at + vec2(0.0, kPixel));
+    right /= right.x + right.y + right.z;
+    down /= down.x + down.y + down.z;
+    s.uv = uv_a * part.x + uv_b * part.y + uv_c * part.z;
+    s.uv_right = uv_a * right.x + uv_b * right.y + uv_c * right.z - s.uv;
+    s.uv_down = uv_a * down.x + uv_b * down.y + uv_c * down.z - s.uv;
+  }
+  return s;
+}
+
+// The listed pixel that this invocation is for, or none. @return whether there is one
+bool listedPixel(out uvec2 listed) {
+  uint number = (gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x) * ENSEMBLE_LIST_GROUP + gl_LocalInvocationID.x;
+  listed = pixels[bins[bin].first + min(number, max(bins[bin].count, 1u) - 1u)];
+  return number < bins[bin].count;
+}

@@ -1,0 +1,152 @@
+// What the compute rasteriser's shaders and the renderer share: structures, bindings, constants. Compiled by
+// C++ and GLSL, as crowd_types.h.
+#ifndef ENSEMBLE_SHADERS_SHARED_RASTER_TYPES_H
+#define ENSEMBLE_SHADERS_SHARED_RASTER_TYPES_H
+
+#include "shaders/shared/crowd_types.h"
+
+// The rasteriser's own set, beside those of the view, the assets and the textures.
+#define ENSEMBLE_SET_RASTER 1
+// In place of the textures: the images of the AOVs.
+#define ENSEMBLE_SET_RASTER_AOVS 3
+
+#define ENSEMBLE_BINDING_RASTER_PEOPLE 0
+#define ENSEMBLE_BINDING_RASTER_WHO 1
+#define ENSEMBLE_BINDING_RASTER_ENTRIES 2
+#define ENSEMBLE_BINDING_RASTER_WORK 3
+#define ENSEMBLE_BINDING_RASTER_GROUPS 4
+#define ENSEMBLE_BINDING_RASTER_TARGET 5
+#define ENSEMBLE_BINDING_RASTER_INDICES 6
+#define ENSEMBLE_BINDING_RASTER_POSES 7
+#define ENSEMBLE_BINDING_RASTER_VERTICES 8
+#define ENSEMBLE_BINDING_RASTER_ITEMS 9
+#define ENSEMBLE_BINDING_RASTER_SHOWN 10
+#define ENSEMBLE_BINDING_RASTER_POSE_TABLE 11
+#define ENSEMBLE_BINDING_RASTER_MATERIALS 12
+#define ENSEMBLE_BINDING_RASTER_TINTS 13
+#define ENSEMBLE_BINDING_RASTER_PIXELS 14
+#define ENSEMBLE_BINDING_RASTER_BINS 15
+#define ENSEMBLE_BINDING_RASTER_DEPTH 16
+#define ENSEMBLE_BINDING_RASTER_PICTURE 17
+
+// The pass that skins poses has a set of its own.
+#define ENSEMBLE_BINDING_SKIN_JOBS 0
+#define ENSEMBLE_BINDING_SKIN_GROUPS 1
+#define ENSEMBLE_BINDING_SKIN_VERTICES 2
+#define ENSEMBLE_BINDING_SKIN_ANIMATION 3
+#define ENSEMBLE_BINDING_SKIN_POSES 4
+
+// Specialisation constants of the rasteriser.
+#define ENSEMBLE_CONSTANT_LANES 3
+#define ENSEMBLE_CONSTANT_TO_SUN 4
+
+// Bits of a sub-pixel coordinate, as graphics pipelines have them.
+#define ENSEMBLE_SUBPIXEL_BITS 8
+// Triangles of a run, for each lane of a group.
+#define ENSEMBLE_RASTER_RUN 16u
+// Vertices that a group skins.
+#define ENSEMBLE_SKIN_GROUP 64
+// Pixels that a group looks through.
+#define ENSEMBLE_LIST_GROUP 64
+// Groups along x of dispatches that may be larger than a device's limit along one axis.
+#define ENSEMBLE_RASTER_GROUPS_X 32768
+
+// A kept vertex: 15 bits each for x, y, z in the box of its clip, 10 and 9 for the octahedral normal.
+#define ENSEMBLE_POSE_POSITION_BITS 15
+#define ENSEMBLE_POSE_NORMAL_X_BITS 10
+#define ENSEMBLE_POSE_NORMAL_Y_BITS 9
+// Where a pose lies: its first vertex in the low bits, above them the number of its buffer.
+#define ENSEMBLE_POSE_OFFSET_BITS 23
+
+// Texels of a person in the table of people: rows to the screen, then rows to the world.
+#define ENSEMBLE_PERSON_TEXELS 6
+// Texels of an item in the table of items.
+#define ENSEMBLE_RASTER_ITEM_TEXELS 3
+
+#define ENSEMBLE_WORK_DOUBLE_SIDED 1u
+
+#ifdef __cplusplus
+namespace ensemble {
+#endif
+
+/// A person that is rasterised in compute. From here on `kept` positions are whole numbers, as poses hold
+/// them.
+struct GpuRasterPerson {
+  vec4 screen_from_kept[3];  ///< rows: x and y in sub-pixels, times w; w. To the sun: x, y; depth
+  vec4 world_from_kept[3];   ///< rows
+};
+
+/// The rest about the same person.
+struct GpuRasterWho {
+  uint combination;
+  uint key;  ///< of the person's wardrobe
+  uint tint_seed;
+  uint number;  ///< in the whole crowd
+};
+
+/// A sub-mesh as the compute rasteriser draws it; three texels.
+struct GpuRasterItem {
+  uint first_index;
+  uint first_vertex;  ///< of its mesh, in its buffer
+  uint first_pose;    ///< of its mesh, in the table of poses; a key is added
+  uint bin;           ///< which buffers and textures it needs
+  uint material;
+  uint region;
+  uint first_face;
+  uint face_offset;
+  uint unused[4];
+};
+
+/// One index list in one pose, and the people who show it so.
+struct GpuRasterWork {
+  uint first_index;
+  uint triangle_count;
+  uint pose;  ///< first vertex in its buffer
+  uint first_entry;
+  uint entry_count;
+  uint flags;
+};
+
+/// A run of triangles of a work item: what one group draws.
+struct GpuRasterGroup {
+  uint work;
+  uint first_triangle;
+};
+
+/// A mesh at a key, to be skinned.
+struct GpuSkinJob {
+  vec4 box;  ///< xyz: low corner of the clip's box, metres; w: steps a metre
+  uint first_vertex;
+  uint vertex_count;
+  uint pose;          ///< first vertex in its buffer
+  uint first_matrix;  ///< of the key in the animation texture
+};
+
+/// A run of vertices of a job.
+struct GpuSkinGroup {
+  uint job;
+  uint first_vertex;
+};
+
+/// Pixels that show items of one bin.
+struct GpuRasterBin {
+  uint count;
+  uint first;   ///< in the sorted list
+  uint cursor;  ///< while they are sorted
+  uint unused_0;
+  uint groups_x;  ///< VkDispatchIndirectCommand
+  uint groups_y;
+  uint groups_z;
+  uint unused_1;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(GpuRasterPerson) == 96 && sizeof(GpuRasterWho) == 16 && sizeof(GpuRasterItem) == 48);
+static_assert(sizeof(GpuRasterPerson) == 16 * ENSEMBLE_PERSON_TEXELS);
+static_assert(sizeof(GpuRasterItem) == 16 * ENSEMBLE_RASTER_ITEM_TEXELS);
+static_assert(sizeof(GpuRasterWork) == 24 && sizeof(GpuRasterGroup) == 8);
+static_assert(sizeof(GpuSkinJob) == 32 && offsetof(GpuSkinJob, first_vertex) == 16);
+static_assert(sizeof(GpuRasterBin) == 32 && offsetof(GpuRasterBin, groups_x) == 16);
+}  // namespace ensemble
+#endif
+#endif

@@ -1,0 +1,51 @@
+// Skins meshes at key frames and packs them, once for all people who come by that pose (the pose cache).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/raster_types.h"
+#include "shaders/shared/vertex.h"
+
+layout(local_size_x = ENSEMBLE_SKIN_GROUP) in;
+
+layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_JOBS, std430) readonly buffer Jobs { GpuSkinJob jobs[]; };
+layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_GROUPS, std430) readonly buffer Groups { GpuSkinGroup groups[]; };
+layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_VERTICES) uniform usamplerBuffer vertices;  // GpuVertex: 5 texels
+layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_ANIMATION) uniform sampler2D animation;
+layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_POSES, std430) writeonly buffer Poses { uvec2 poses[]; };
+
+layout(push_constant) uniform Push { uint first_group, group_count; };
+
+vec4 animationRow(uint matrix, uint row) {
+  uint texel = matrix * 3u + row;
+  return texelFetch(animation, ivec2(texel % ENSEMBLE_ANIMATION_WIDTH, texel / ENSEMBLE_ANIMATION_WIDTH), 0);
+}
+
+void main() {
+  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
+  if (number >= group_count) return;
+  GpuSkinGroup group = groups[first_group + number];
+  GpuSkinJob job = jobs[group.job];
+  uint vertex = group.first_vertex + gl_LocalInvocationID.x;
+  if (vertex >= job.vertex_count) return;
+  int texel = int(job.first_vertex + vertex) * 5;
+  uvec2 xy = texelFetch(vertices, texel).xy, zn = texelFetch(vertices, texel + 1).xy;
+  uvec2 joints = texelFetch(vertices, texel + 3).xy, weights = texelFetch(vertices, texel + 4).xy;
+  vec4 position = vec4(uintBitsToFloat(xy.x), uintBitsToFloat(xy.y), uintBitsToFloat(zn.x), 1.0);
+  vec3 normal = decodeOctahedral(unpackSnorm2x16(zn.y));
+  uvec4 joint = uvec4(joints.x & 0xffffu, joints.x >> 16, joints.y & 0xffffu, joints.y >> 16);
+  joint &= (1u << ENSEMBLE_JOINT_BITS) - 1u;  // the garment part stands above
+  vec4 weight = vec4(unpackUnorm2x16(weights.x), unpackUnorm2x16(weights.y));
+  vec4 row[3];
+  for (uint i = 0u; i < 3u; ++i) {
+    row[i] = animationRow(job.first_matrix + joint.x, i) * weight.x + animationRow(job.first_matrix + joint.y, i) * weight.y +
+             animationRow(job.first_matrix + joint.z, i) * weight.z + animationRow(job.first_matrix + joint.w, i) * weight.w;
+  }
+  vec3 posed = vec3(dot(row[0], position), dot(row[1], position), dot(row[2], position));
+  vec3 turned = vec3(dot(row[0].xyz, normal), dot(row[1].xyz, normal), dot(row[2].xyz, normal));
+  const float most = float((1u << ENSEMBLE_POSE_POSITION_BITS) - 1u);
+  uvec3 q = uvec3(clamp((posed - job.box.xyz) * job.box.w + 0.5, 0.0, most));
+  vec2 n = encodeOctahedral(turned) * 0.5 + 0.5;
+  uint nx = uint(n.x * float((1u << ENSEMBLE_POSE_NORMAL_X_BITS) - 1u) + 0.5);
+  uint ny = uint(n.y * float((1u << ENSEMBLE_POSE_NORMAL_Y_BITS) - 1u) + 0.5);
+  uint packed_normal = nx | ny << ENSEMBLE_POSE_NORMAL_X_BITS;  // 19 bits: 2 in the first word, 17 in the second
+  poses[job.pose + vertex] = uvec2(q.x | q.y << 15 | packed_normal << 30, q.z | packed_normal >> 2 << 15);
+}

@@ -1,0 +1,178 @@
+// The compute rasteriser against the graphics pipeline, and what must not change a picture.
+#include "core/input_error.h"
+#include "tests/renderer/gpu_fixture.h"
+
+namespace ensemble {
+namespace {
+
+using testing::GpuTest;
+using ::testing::HasSubstr;
+
+class ComputeRasterTest : public GpuTest {
+ protected:
+  /// People who all fit the compute rasteriser, posed at key frames; the net's cut-outs don't.
+  static Scene crowdScene(RasterKind raster, std::uint32_t count = 100) {
+    Scene scene = testing::tubeScene(count);
+    scene.crowd.outfits = {{"tunic", 1.0f, {}}, {"patch", 1.0f, {}}};
+    scene.output.width = 320;
+    scene.output.height = 180;
+    scene.output.samples = 1;
+    scene.camera.position = Vec3(0.4f, 4.0f, 9.0f);
+    scene.poses.snap_below = 1e5f;
+    scene.raster = raster;
+    return scene;
+  }
+  static View viewWithAovs(const Scene& scene) {
+    View view = viewOf(scene);
+    view.aovs = testing::allAovs();
+    return view;
+  }
+  /// Pixels of which a channel differs by more than 8 of 255.
+  static std::size_t countDifferences(const Image8& a, const Image8& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+      bool differs = false;
+      for (std::size_t k = i; k < i + 4; ++k) differs = differs || std::abs(a.rgba[k] - b.rgba[k]) > 8;
+      count += differs;
+    }
+    return count;
+  }
+};
+
+TEST_F(ComputeRasterTest, BothRasterisersDrawTheSamePicture) {
+  const std::vector<SceneCamera> cameras = {
+      {.position = Vec3(0.4f, 4.0f, 9.0f), .target = Vec3(0.0f, 0.9f, 0.0f)},
+      {.position = Vec3(0.0f, 12.0f, 40.0f), .target = Vec3(0.0f, 0.9f, 0.0f), .fov_y = radians(20.0f)},
+      {.position = Vec3(0.5f, 1.2f, 0.3f), .target = Vec3(3.0f, 1.0f, 2.0f)},  // among them
+  };
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    std::array<Picture, 2> pictures;
+    for (const RasterKind raster : {RasterKind::kPipeline, RasterKind::kCompute}) {
+      Scene scene = crowdScene(raster);
+      scene.camera = cameras[c];
+      pictures[raster == RasterKind::kCompute] = drawScene(scene, viewWithAovs(scene), 0.37);
+    }
+    const auto& [pipeline, compute] = pictures;
+    EXPECT_EQ(pipeline.stats.characters_computed, 0u);
+    EXPECT_GT(compute.stats.characters_computed, c == 2 ? 10u : 90u);
+    EXPECT_LE(compute.stats.characters_computed, compute.stats.characters_drawn);
+    EXPECT_EQ(compute.stats.triangles(), pipeline.stats.triangles()) << c;
+    const std::size_t people = testing::countPeoplePixels(pipeline);
+    EXPECT_GT(people, 2000u);
+    const auto most = static_cast<double>(people) * 0.002 + 5.0;
+    EXPECT_LE(static_cast<double>(countDifferences(pipeline.color, compute.color)), most) << c;
+    std::size_t others = 0, off = 0, faces = 0;
+    for (std::size_t i = 0; i < pipeline.character.size(); ++i) {
+      others += pipeline.character[i] != compute.character[i];
+      if (pipeline.character[i] != compute.character[i] || pipeline.character[i] == 0) continue;
+      faces += pipeline.face[i] != compute.face[i] || pipeline.region[i] != compute.region[i];
+      off += std::abs(pipeline.depth[i] - compute.depth[i]) > 0.005f;
+    }
+    EXPECT_LE(static_cast<double>(others), most) << c;
+    EXPECT_LE(static_cast<double>(faces), static_cast<double>(people) * 0.01 + 5.0) << c;
+    EXPECT_LE(static_cast<double>(off), most) << c;
+  }
+}
+
+TEST_F(ComputeRasterTest, CachesAndOrderChangeNoPixel) {
+  Scene scene = crowdScene(RasterKind::kCompute);
+  const auto renderer = makeRenderer(scene);
+  scene.poses.cache_mib = 0;
+  const auto without = makeRenderer(scene);
+  const View view = viewWithAovs(scene);
+  std::vector<Picture> in_order;
+  for (int i = 0; i < 4; ++i) in_order.push_back(draw(*renderer, view, i / 30.0));
+  EXPECT_NE(in_order[0].color.rgba, in_order[3].color.rgba);
+  for (const int i : {3, 1, 0, 2}) {
+    const Picture again = draw(*renderer, view, i / 30.0), anew = draw(*without, view, i / 30.0);
+    EXPECT_EQ(again.stats.pose_misses, 0u);
+    EXPECT_GT(again.stats.pose_hits, 0u);
+    EXPECT_EQ(again.stats.vertices_skinned, 0u);
+    EXPECT_EQ(anew.stats.pose_hits, 0u);
+    EXPECT_GT(anew.stats.vertices_skinned, 0u);
+    for (const Picture* picture : {&again, &anew}) {
+      EXPECT_EQ(picture->color.rgba, in_order[static_cast<std::size_t>(i)].color.rgba) << i;
+      EXPECT_EQ(picture->face, in_order[static_cast<std::size_t>(i)].face) << i;
+    }
+  }
+}
+
+// Each mesh in a buffer of its own, so that all that is sorted by buffers is.
+TEST_F(ComputeRasterTest, ChunksOfBuffersGiveTheSamePicture) {
+  const Scene scene = crowdScene(RasterKind::kCompute);
+  const View view = viewWithAovs(scene);
+  const Picture whole = drawScene(scene, view),
+                chunked = drawScene(scene, view, 0.0, {.max_buffer_bytes = 20000});
+  EXPECT_GT(whole.stats.characters_computed, 90u);
+  EXPECT_EQ(whole.stats.characters_computed, chunked.stats.characters_computed);
+  EXPECT_EQ(whole.color.rgba, chunked.color.rgba);
+  EXPECT_EQ(whole.character, chunked.character);
+  EXPECT_EQ(whole.face, chunked.face);
+  EXPECT_EQ(whole.normal, chunked.normal);
+}
+
+// At equal depth the lower number wins, wherever the two stand in the queues.
+TEST_F(ComputeRasterTest, OfTwoInOnePlaceTheFirstShows) {
+  Scene scene = crowdScene(RasterKind::kCompute, 0);
+  for (int i = 0; i < 6; ++i) {
+    ScenePerson person;
+    person.outfit.value = i % 2 == 0 ? "tunic" : "patch";
+    person.phase = 0.3f;
+    person.tint = 100 + static_cast<std::uint32_t>(i);
+    scene.people.push_back(person);
+  }
+  scene.camera.position = Vec3(0.0f, 1.5f, 5.0f);
+  const Picture picture = drawScene(scene, viewWithAovs(scene));
+  EXPECT_EQ(picture.stats.characters_computed, 6u);
+  std::set<std::uint32_t> seen(picture.character.begin(), picture.character.end());
+  EXPECT_THAT(seen, ::testing::IsSubsetOf({0u, 1u, 2u})) << "the first in a tunic, the first with a patch";
+  EXPECT_TRUE(seen.contains(1));
+}
+
+// Cut-outs are drawn by the graphics pipeline; the two meet by depth.
+TEST_F(ComputeRasterTest, ACrowdOfBothRasterisersHasTheRightDepths) {
+  std::array<Picture, 2> pictures;
+  for (const RasterKind raster : {RasterKind::kPipeline, RasterKind::kCompute}) {
+    Scene scene = crowdScene(raster);
+    scene.crowd.outfits.push_back({"net", 1.0f, {}});
+    pictures[raster == RasterKind::kCompute] = drawScene(scene, viewWithAovs(scene), 0.2);
+  }
+  const auto& [pipeline, compute] = pictures;
+  EXPECT_GT(compute.stats.characters_computed, 30u);
+  EXPECT_LT(compute.stats.characters_computed, 90u);
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < pipeline.character.size(); ++i)
+    others += pipeline.character[i] != compute.character[i];
+  EXPECT_LE(others, testing::countPeoplePixels(pipeline) / 500 + 5);
+  EXPECT_LE(countDifferences(pipeline.color, compute.color), testing::countPeoplePixels(pipeline) / 500 + 5);
+}
+
+TEST_F(ComputeRasterTest, SmallestPictureAndNobodyInSight) {
+  Scene scene = crowdScene(RasterKind::kCompute);
+  View view = viewWithAovs(scene);
+  view.width = view.height = 1;
+  const auto renderer = makeRenderer(scene);
+  EXPECT_EQ(draw(*renderer, view).color.rgba.size(), 4u);
+  view = viewWithAovs(scene);
+  view.camera.target = view.camera.position + Vec3(0.0f, 5.0f, 5.0f);
+  const Picture nobody = draw(*renderer, view);
+  EXPECT_EQ(nobody.stats.characters_drawn, 0u);
+  EXPECT_EQ(testing::countPeoplePixels(nobody), 0u);
+}
+
+TEST_F(ComputeRasterTest, FourSamplesAreRefusedWhereItMustBeCompute) {
+  Scene scene = crowdScene(RasterKind::kCompute);
+  scene.output.samples = 4;
+  try {
+    drawScene(scene, viewOf(scene));
+    FAIL() << "no error";
+  } catch (const SystemError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the compute rasteriser draws one sample a pixel, not 4; "
+                                        "set output.samples to 1, or raster to auto"));
+  }
+  scene.raster = RasterKind::kAuto;
+  EXPECT_EQ(drawScene(scene, viewOf(scene)).stats.characters_computed, 0u);
+}
+
+}  // namespace
+}  // namespace ensemble

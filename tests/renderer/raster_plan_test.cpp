@@ -1,0 +1,85 @@
+#include "renderer/raster_plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace ensemble {
+namespace {
+
+/// Three items in two meshes, of which combination 0 shows 0 and 2, combination 1 shows 1 and 2.
+RasterPlan smallPlan() {
+  return RasterPlan(
+      {{.mesh = 0, .first_index = 0, .triangle_count = 10, .buffers = 0},
+       {.mesh = 0, .first_index = 30, .triangle_count = 3, .buffers = 0, .is_double_sided = true},
+       {.mesh = 1, .first_index = 39, .triangle_count = 17, .buffers = 1}},
+      {{{0, 0}, {2, 10}}, {{1, 0}, {2, 3}}}, 4, 8);
+}
+
+PlanPose poseAt(std::uint32_t mesh, std::uint32_t key) { return {0, 1000 * mesh + 10 * key}; }
+
+TEST(RasterPlan, EveryTriangleOfEveryoneOnce) {
+  RasterPlan plan = smallPlan();
+  EXPECT_EQ(plan.faceBits(), 5u) << "27 faces at most";
+  const std::vector<PlanPerson> people = {{0, 2}, {1, 2}, {0, 1}, {0, 2}, {1, 0}};
+  plan.build(people, plan.faceBits(), poseAt);
+  std::set<std::tuple<std::uint32_t, std::uint32_t>> drawn;  // id and index of the triangle's first corner
+  std::map<std::uint32_t, std::set<std::uint32_t>> poses_of_person;
+  std::uint32_t groups = 0;
+  for (const PlanBatch& batch : plan.batches()) {
+    EXPECT_EQ(batch.first_group, groups);
+    groups += batch.group_count;
+    for (std::uint32_t g = batch.first_group; g < groups; ++g) {
+      const GpuRasterGroup& group = plan.groups()[g];
+      const GpuRasterWork& work = plan.work()[group.work];
+      EXPECT_EQ(batch.buffers, work.first_index == 39 ? 1u : 0u);
+      EXPECT_EQ((work.flags & ENSEMBLE_WORK_DOUBLE_SIDED) != 0, work.first_index == 30);
+      const std::uint32_t end = std::min(group.first_triangle + 8, work.triangle_count);
+      for (std::uint32_t t = group.first_triangle; t < end; ++t) {
+        for (std::uint32_t e = 0; e < work.entry_count; ++e) {
+          const std::uint32_t entry = plan.entries()[work.first_entry + e];
+          EXPECT_TRUE(drawn.emplace(entry + t, work.first_index + 3 * t).second) << "twice";
+          poses_of_person[entry >> plan.faceBits()].insert(work.pose % 1000);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(groups, plan.groups().size());
+  EXPECT_EQ(drawn.size(), 3u * 27u + 2u * 20u);
+  EXPECT_EQ(plan.triangleCount(), drawn.size());
+  std::set<std::uint32_t> ids;
+  for (const auto& [id, corner] : drawn) EXPECT_TRUE(ids.insert(id).second) << "ids tell all apart";
+  for (std::uint32_t p = 0; p < people.size(); ++p)
+    EXPECT_THAT(poses_of_person[p], ::testing::ElementsAre(10 * people[p].key)) << p;
+}
+
+TEST(RasterPlan, PeopleOfOnePoseAreDrawnTogether) {
+  RasterPlan plan = smallPlan();
+  const std::vector<PlanPerson> people = {{0, 2}, {1, 2}, {0, 2}, {0, 1}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> asked;
+  plan.build(people, plan.faceBits(), [&](std::uint32_t mesh, std::uint32_t key) {
+    ++asked[{mesh, key}];
+    return poseAt(mesh, key);
+  });
+  ASSERT_EQ(plan.work().size(), 5u) << "items 0, 1, 2 at key 2, items 0, 2 at key 1";
+  for (const GpuRasterWork& work : plan.work()) {
+    if (work.pose % 1000 != 20) continue;
+    EXPECT_EQ(work.entry_count, work.first_index == 0 ? 2u : work.first_index == 30 ? 1u : 3u);
+  }
+  EXPECT_EQ(asked.size(), 4u);
+}
+
+TEST(RasterPlan, NobodyIsNoWork) {
+  RasterPlan plan = smallPlan();
+  plan.build(std::vector<PlanPerson>{{0, 1}}, plan.faceBits(), poseAt);
+  plan.build({}, plan.faceBits(), poseAt);
+  EXPECT_TRUE(plan.groups().empty());
+  EXPECT_TRUE(plan.batches().empty());
+  EXPECT_EQ(plan.triangleCount(), 0u);
+}
+
+}  // namespace
+}  // namespace ensemble
