@@ -44,7 +44,8 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
                                             .loadOp = vk::AttachmentLoadOp::eClear,
                                             .storeOp = vk::AttachmentStoreOp::eStore};
   }
-  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.aov_depth);
+  const vk::RenderingAttachmentInfo depth =
+      recordClearedDepth(commands, targets.aov_depth, static_cast<bool>(more));
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = colors.size(),
@@ -54,6 +55,7 @@ void AovPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& d
   recordDraws(commands, draw, view);
   commands.endRendering();
   if (more) {
+    recordReadableDepth(commands, targets.aov_depth);
     for (const gpu::Image& image : targets.aovs) {
       gpu::recordBarrier(commands, image,
                          {.from_stage = Stage::eColorAttachmentOutput,

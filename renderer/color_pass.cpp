@@ -39,7 +39,7 @@ void ColorPass::prepare(std::uint32_t samples) {
 
 void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,
                        const ViewTargets& targets, const View& view, VertexCounter& counter,
-                       std::uint32_t counted_pass, bool keep_depth) const {
+                       std::uint32_t counted_pass, bool keep) const {
   using Stage = vk::PipelineStageFlagBits2;
   using Access = vk::AccessFlagBits2;
   using Layout = vk::ImageLayout;
@@ -56,13 +56,13 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
       .imageView = multisampled ? targets.samples.view() : targets.linear.view(),
       .imageLayout = Layout::eColorAttachmentOptimal,
       .loadOp = vk::AttachmentLoadOp::eClear,
-      .storeOp = multisampled ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore};
+      .storeOp = multisampled && !keep ? vk::AttachmentStoreOp::eDontCare : vk::AttachmentStoreOp::eStore};
   if (multisampled) {
     color.resolveMode = vk::ResolveModeFlagBits::eAverage;
     color.resolveImageView = targets.linear.view();
     color.resolveImageLayout = Layout::eColorAttachmentOptimal;
   }
-  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.depth, keep_depth);
+  const vk::RenderingAttachmentInfo depth = recordClearedDepth(commands, targets.depth, keep);
   commands.beginRendering({.renderArea = {.extent = {targets.size.width, targets.size.height}},
                            .layerCount = 1,
                            .colorAttachmentCount = 1,
@@ -78,14 +78,15 @@ void ColorPass::record(const vk::raii::CommandBuffer& commands, const CrowdDraw&
     draw.environment.pass->recordColor(commands, draw, targets.size.samples, counter);
   recordBackground(commands, draw, view);
   commands.endRendering();
-  if (keep_depth) recordReadableDepth(commands, targets.depth);
-  gpu::recordBarrier(commands, targets.linear,
-                     {.from_stage = Stage::eColorAttachmentOutput,
-                      .to_stage = Stage::eComputeShader,
-                      .from_access = Access::eColorAttachmentWrite,
-                      .to_access = Access::eShaderSampledRead,
-                      .from = Layout::eColorAttachmentOptimal,
-                      .to = Layout::eShaderReadOnlyOptimal});
+  if (keep) recordReadableDepth(commands, targets.depth);
+  const gpu::ImageBarrier to_readable{.from_stage = Stage::eColorAttachmentOutput,
+                                      .to_stage = Stage::eComputeShader,
+                                      .from_access = Access::eColorAttachmentWrite,
+                                      .to_access = Access::eShaderSampledRead,
+                                      .from = Layout::eColorAttachmentOptimal,
+                                      .to = Layout::eShaderReadOnlyOptimal};
+  gpu::recordBarrier(commands, targets.linear, to_readable);
+  if (keep && multisampled) gpu::recordBarrier(commands, targets.samples, to_readable);
 }
 
 void ColorPass::recordBackground(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw,

@@ -12,10 +12,10 @@ class ColorPass {
 
   /// Makes the pipelines of a number of samples, once.
   void prepare(std::uint32_t samples);
-  /// Draws a view and leaves `targets.linear` readable by compute shaders, and `targets.depth` if it is kept.
-  /// @pre prepared
+  /// Draws a view and leaves `targets.linear` readable by compute shaders, and if `keep` is set
+  /// `targets.depth` and `targets.samples` too. @pre prepared
   void record(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, const ViewTargets& targets,
-              const View& view, VertexCounter& counter, std::uint32_t counted_pass, bool keep_depth) const;
+              const View& view, VertexCounter& counter, std::uint32_t counted_pass, bool keep) const;
 
  private:
   struct Pipelines {

@@ -11,6 +11,8 @@
 #include "spirv/raster_bins.comp.h"
 #include "spirv/raster_color.comp.h"
 #include "spirv/raster_list.comp.h"
+#include "spirv/raster_list_samples.comp.h"
+#include "spirv/raster_resolve.comp.h"
 #include "spirv/raster_sort.comp.h"
 
 namespace ensemble {
@@ -21,27 +23,22 @@ using Access = vk::AccessFlagBits2;
 
 constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
 constexpr auto kTexels = vk::DescriptorType::eUniformTexelBuffer;
-/// In the order of ENSEMBLE_BINDING_RASTER_...
-constexpr std::initializer_list<vk::DescriptorType> kBindings = {kTexels,   // people
-                                                                 kTexels,   // who
-                                                                 kStorage,  // entries
-                                                                 kStorage,  // work
-                                                                 kStorage,  // groups
-                                                                 kStorage,  // target
-                                                                 kTexels,   // indices
-                                                                 kTexels,   // poses
-                                                                 kTexels,   // vertices
-                                                                 kTexels,   // items
-                                                                 kTexels,   // shown
-                                                                 kTexels,   // table of poses
-                                                                 kTexels,   // materials
-                                                                 kTexels,   // tints
-                                                                 kStorage,  // pixels
-                                                                 kStorage,  // bins
-                                                                 vk::DescriptorType::eCombinedImageSampler,
-                                                                 vk::DescriptorType::eStorageImage};
+constexpr auto kSampled = vk::DescriptorType::eCombinedImageSampler;
 constexpr auto kImage = vk::DescriptorType::eStorageImage;
+/// In the order of ENSEMBLE_BINDING_RASTER_...
+constexpr std::initializer_list<vk::DescriptorType> kBindings = {
+    kTexels,  kTexels,  kStorage, kStorage, kStorage,  // people, who, entries, work, groups
+    kStorage, kTexels,  kTexels,  kTexels,             // target, indices, poses, vertices
+    kTexels,  kTexels,  kTexels,  kTexels,  kTexels,   // items, shown, table of poses, materials, tints
+    kStorage, kStorage, kSampled, kImage,              // pixels, bins, depth, picture
+    kSampled, kStorage};                               // drawn, shaded
 constexpr std::initializer_list<vk::DescriptorType> kAovBindings = {kImage, kImage, kImage, kImage, kImage};
+
+constexpr std::uint64_t kVisibleBytes = 8, kListedBytes = 8, kShadedBytes = 8;
+
+std::uint32_t listGroups(std::uint32_t pixels) {
+  return (pixels + ENSEMBLE_LIST_GROUP - 1) / ENSEMBLE_LIST_GROUP;
+}
 
 void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
   gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
@@ -55,7 +52,7 @@ void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
 struct ComputeRaster::Push {
   std::uint32_t first_group = 0, group_count = 0, face_bits = 0, width = 0, height = 0;
   float near_plane = 0.0f;
-  std::uint32_t bin = 0, bin_count = 0;
+  std::uint32_t bin = 0, bin_count = 0, first_pixel = 0, pixel_count = 0;
 };
 
 ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
@@ -72,8 +69,8 @@ ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, con
   tints_view_ = assets.tints().makeTexelView(device);
   createPipelines();
   camera_.eye = Eye::kCamera;
-  sun_.eye = Eye::kSun;
-  for (Work* work : {&camera_, &sun_}) {
+  sun_work_.eye = Eye::kSun;
+  for (Work* work : {&camera_, &sun_work_}) {
     work->plan = std::make_unique<RasterPlan>(plan_items_, shown_,
                                               static_cast<std::uint32_t>(state.keyFrames().keys.size()),
                                               device.subgroupSize() * ENSEMBLE_RASTER_RUN);
@@ -156,28 +153,36 @@ void ComputeRaster::createPipelines() {
   struct Constants {
     std::uint32_t lanes;
     vk::Bool32 to_sun, textured;
+    std::int32_t samples;
   };
-  constexpr std::array<vk::SpecializationMapEntry, 3> kEntries = {{
+  constexpr std::array<vk::SpecializationMapEntry, 4> kEntries = {{
       {ENSEMBLE_CONSTANT_LANES, offsetof(Constants, lanes), sizeof(std::uint32_t)},
       {ENSEMBLE_CONSTANT_TO_SUN, offsetof(Constants, to_sun), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_TEXTURED, offsetof(Constants, textured), sizeof(vk::Bool32)},
+      {ENSEMBLE_CONSTANT_SAMPLES, offsetof(Constants, samples), sizeof(std::int32_t)},
   }};
-  const auto make = [&](std::span<const std::uint32_t> spirv, bool to_sun, bool textured) {
-    const Constants constants{device_.subgroupSize(), to_sun, textured};
+  const auto make = [&](const vk::raii::PipelineLayout& layout, std::span<const std::uint32_t> spirv,
+                        Constants constants) {
     const vk::SpecializationInfo info{.mapEntryCount = kEntries.size(),
                                       .pMapEntries = kEntries.data(),
                                       .dataSize = sizeof constants,
                                       .pData = &constants};
-    return gpu::makeComputePipeline(device_, pipeline_layout_, spirv, &info);
+    return gpu::makeComputePipeline(device_, layout, spirv, &info);
   };
-  camera_pipeline_ = make(kRasterComp, false, false);
-  sun_pipeline_ = make(kRasterComp, true, false);
-  list_ = make(kRasterListComp, false, false);
-  count_bins_ = make(kRasterBinsComp, false, false);
-  sort_ = make(kRasterSortComp, false, false);
-  plain_color_ = make(kRasterColorComp, false, false);
-  textured_color_ = make(kRasterColorComp, false, true);
-  aov_ = gpu::makeComputePipeline(device_, aov_pipeline_layout_, kRasterAovComp);
+  const std::uint32_t lanes = device_.subgroupSize();
+  for (const std::int32_t samples : {1, 4}) {
+    Sampled& own = sampled_[samples > 1 ? 1 : 0];
+    own.raster = make(pipeline_layout_, kRasterComp, {lanes, false, false, samples});
+    own.list = samples > 1 ? make(pipeline_layout_, kRasterListSamplesComp, {lanes, false, false, samples})
+                           : make(pipeline_layout_, kRasterListComp, {lanes, false, false, samples});
+    own.plain_color = make(pipeline_layout_, kRasterColorComp, {lanes, false, false, samples});
+    own.textured_color = make(pipeline_layout_, kRasterColorComp, {lanes, false, true, samples});
+  }
+  sun_ = make(pipeline_layout_, kRasterComp, {lanes, true, false, 1});
+  count_bins_ = make(pipeline_layout_, kRasterBinsComp, {lanes, false, false, 1});
+  sort_ = make(pipeline_layout_, kRasterSortComp, {lanes, false, false, 1});
+  resolve_ = make(pipeline_layout_, kRasterResolveComp, {lanes, false, false, 4});
+  aov_ = make(aov_pipeline_layout_, kRasterAovComp, {lanes, false, false, 1});
 }
 
 void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
@@ -229,24 +234,41 @@ std::uint32_t ComputeRaster::binCount() const {
   return static_cast<std::uint32_t>(bins_.size() * std::max<std::size_t>(poses_.buffers().size(), 1));
 }
 
-ComputeRaster::Target ComputeRaster::makeTarget(Eye eye, const ViewTargets& targets) {
+bool ComputeRaster::fits(const TargetSize& size) const {
+  const std::uint64_t samples = std::uint64_t{size.width} * size.height * size.samples;
+  const std::uint64_t texels = std::uint64_t{size.shadow_size} * size.shadow_size;
+  return std::max(samples * kVisibleBytes, texels * sizeof(float)) <= device_.limits().maxStorageBufferRange;
+}
+
+ComputeRaster::Target ComputeRaster::makeTarget(Pass pass, const ViewTargets& targets) {
   using Usage = vk::BufferUsageFlagBits;
-  constexpr auto kUsage = Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc;
-  constexpr auto kKind = gpu::Buffer::Kind::kDevice;
   Target target;
-  const bool to_sun = eye == Eye::kSun;
+  const bool to_sun = pass == Pass::kShadow;
+  target.pass = pass;
   target.width = to_sun ? targets.size.shadow_size : targets.size.width;
   target.height = to_sun ? targets.size.shadow_size : targets.size.height;
+  target.samples = pass == Pass::kPicture ? targets.size.samples : 1;
   const std::uint64_t pixels = std::uint64_t{target.width} * target.height;
-  target.visible = gpu::Buffer(device_, pixels * (to_sun ? 4 : 8), kUsage, kKind, "the rasteriser's pixels");
-  target.pixels =
-      gpu::Buffer(device_, to_sun ? 0 : pixels * 16, kUsage, kKind, "the rasteriser's list of pixels");
+  const std::uint64_t band = to_sun ? 0 : std::min<std::uint64_t>(pixels, ENSEMBLE_RASTER_BAND);
+  const auto buffer = [&](std::uint64_t bytes, const char* what) {
+    return gpu::Buffer(device_, bytes, Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc,
+                       gpu::Buffer::Kind::kDevice, what);
+  };
+  target.visible =
+      buffer(pixels * (to_sun ? sizeof(float) : target.samples * kVisibleBytes), "the rasteriser's samples");
+  target.pixels = buffer(band * target.samples * 2 * kListedBytes, "the rasteriser's list of pixels");
+  target.shaded =
+      buffer(target.samples > 1 ? band * target.samples * kShadedBytes : 0, "the rasteriser's colours");
+  if (pass != Pass::kAovs) return target;
+  target.aov_set = gpu::DescriptorSets(device_, aov_layout_, kAovBindings, 1);
+  for (std::uint32_t i = 0; i < targets.aovs.size(); ++i)
+    gpu::writeImage(device_, target.aov_set[0], i, targets.aovs[i], nullptr, vk::ImageLayout::eGeneral);
   return target;
 }
 
-void ComputeRaster::prepare(Eye eye, const ViewTargets& targets, Target& target) {
+void ComputeRaster::prepare(const ViewTargets& targets, Target& target) {
   poses_.prepare();
-  const Work& work = workOf(eye);
+  const Work& work = workOf(eyeOf(target.pass));
   const auto pose_buffers = static_cast<std::uint32_t>(poses_.buffers().size());
   if (target.pose_buffers != pose_buffers) {
     const std::uint64_t bins = binCount() + 1;
@@ -291,22 +313,19 @@ void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Targ
     texels(ENSEMBLE_BINDING_RASTER_TINTS, tints_view_);
     buffer(ENSEMBLE_BINDING_RASTER_PIXELS, target.pixels);
     buffer(ENSEMBLE_BINDING_RASTER_BINS, target.bins);
-    gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DEPTH, targets.depth, &sampler_,
-                    vk::ImageLayout::eShaderReadOnlyOptimal);
+    const auto readable = vk::ImageLayout::eShaderReadOnlyOptimal;
+    const gpu::Image& depth = target.pass == Pass::kAovs ? targets.aov_depth : targets.depth;
+    gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DEPTH, depth, &sampler_, readable);
+    const gpu::Image& drawn = targets.samples ? targets.samples : targets.linear;
+    gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DRAWN, drawn, &sampler_, readable);
+    buffer(ENSEMBLE_BINDING_RASTER_SHADED, target.shaded);
     gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_PICTURE, targets.linear, nullptr,
                     vk::ImageLayout::eGeneral);
   }
 }
 
-void ComputeRaster::makeAovSet(const ViewTargets& targets, Target& target) const {
-  if (target.aov_set.size() > 0) return;
-  target.aov_set = gpu::DescriptorSets(device_, aov_layout_, kAovBindings, 1);
-  for (std::uint32_t i = 0; i < targets.aovs.size(); ++i)
-    gpu::writeImage(device_, target.aov_set[0], i, targets.aovs[i], nullptr, vk::ImageLayout::eGeneral);
-}
-
-ComputeRaster::Push ComputeRaster::pushFor(const Work& work, const Target& target, float near_plane) const {
-  return {.face_bits = work.plan->faceBits(),
+ComputeRaster::Push ComputeRaster::pushFor(const Target& target, float near_plane) const {
+  return {.face_bits = workOf(eyeOf(target.pass)).plan->faceBits(),
           .width = target.width,
           .height = target.height,
           .near_plane = near_plane,
@@ -314,18 +333,17 @@ ComputeRaster::Push ComputeRaster::pushFor(const Work& work, const Target& targe
           .bin_count = binCount()};
 }
 
-void ComputeRaster::record(const vk::raii::CommandBuffer& commands, Eye eye, vk::DescriptorSet view_set,
+void ComputeRaster::record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
                            const Target& target, float near_plane) const {
-  const Work& work = workOf(eye);
+  const bool to_sun = target.pass == Pass::kShadow;
   gpu::recordBarrier(commands, Stage::eComputeShader | Stage::eTransfer, {}, Stage::eTransfer,
                      Access::eTransferWrite);
   commands.fillBuffer(target.visible.handle(), 0, VK_WHOLE_SIZE, 0);
   gpu::recordBarrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
                      Access::eShaderStorageRead | Access::eShaderStorageWrite);
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute,
-                        eye == Eye::kSun ? *sun_pipeline_ : *camera_pipeline_);
-  Push push = pushFor(work, target, eye == Eye::kSun ? kShadowSlopeBias : near_plane);
-  for (const PlanBatch& batch : work.plan->batches()) {
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, to_sun ? *sun_ : *sampled(target).raster);
+  Push push = pushFor(target, to_sun ? kShadowSlopeBias : near_plane);
+  for (const PlanBatch& batch : workOf(eyeOf(target.pass)).plan->batches()) {
     const std::array<vk::DescriptorSet, 2> sets = {
         view_set, target.sets[batch.pose_buffer * pairs_.size() + batch.buffers]};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
@@ -349,8 +367,8 @@ void ComputeRaster::recordShadowMap(const vk::raii::CommandBuffer& commands, con
           .imageExtent = {target.width, target.height, 1}});
 }
 
-void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, const Target& target,
-                               const Push& push, vk::DescriptorSet view_set) const {
+void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                               const Target& target, const Push& push) const {
   gpu::recordBarrier(commands, Stage::eComputeShader | Stage::eDrawIndirect, {}, Stage::eTransfer,
                      Access::eTransferWrite);
   commands.fillBuffer(target.bins.handle(), 0, VK_WHOLE_SIZE, 0);
@@ -360,10 +378,8 @@ void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, const Ta
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
                               nullptr);
   commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-  const auto groups = static_cast<std::uint32_t>(
-      (std::uint64_t{target.width} * target.height + ENSEMBLE_LIST_GROUP - 1) / ENSEMBLE_LIST_GROUP);
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *list_);
-  gpu::recordDispatch(commands, groups, ENSEMBLE_RASTER_GROUPS_X);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sampled(target).list);
+  gpu::recordDispatch(commands, listGroups(push.pixel_count), ENSEMBLE_RASTER_GROUPS_X);
   recordComputeBarrier(commands);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *count_bins_);
   commands.dispatch(1, 1, 1);
@@ -374,23 +390,29 @@ void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, const Ta
   recordComputeBarrier(commands);
 }
 
-template <class Bind>
-void ComputeRaster::recordBins(const vk::raii::CommandBuffer& commands, const Target& target, Push push,
-                               const Bind& bind) const {
-  for (std::uint32_t i = 0; i < push.bin_count; ++i) {
-    const Bin& bin = bins_[i % bins_.size()];
-    const std::size_t pose_buffer = i / bins_.size();
-    push.bin = i;
-    bind(bin, target.sets[pose_buffer * pairs_.size() + bin.pair], push);
-    commands.dispatchIndirect(target.bins.handle(),
-                              i * sizeof(GpuRasterBin) + offsetof(GpuRasterBin, groups_x));
+template <class Bind, class Finish>
+void ComputeRaster::recordBands(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                                const Target& target, float near_plane, const Bind& bind,
+                                const Finish& finish) const {
+  Push push = pushFor(target, near_plane);
+  const std::uint32_t pixels = target.width * target.height;
+  for (push.first_pixel = 0; push.first_pixel < pixels; push.first_pixel += ENSEMBLE_RASTER_BAND) {
+    push.pixel_count = std::min(ENSEMBLE_RASTER_BAND, pixels - push.first_pixel);
+    recordList(commands, view_set, target, push);
+    Push own = push;
+    for (own.bin = 0; own.bin < push.bin_count; ++own.bin) {
+      const Bin& bin = bins_[own.bin % bins_.size()];
+      bind(bin, target.sets[own.bin / bins_.size() * pairs_.size() + bin.pair], own);
+      commands.dispatchIndirect(target.bins.handle(),
+                                own.bin * sizeof(GpuRasterBin) + offsetof(GpuRasterBin, groups_x));
+    }
+    recordComputeBarrier(commands);
+    finish(push);
   }
 }
 
 void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
                                 const ViewTargets& targets, const Target& target, float near_plane) const {
-  const Push push = pushFor(camera_, target, near_plane);
-  recordList(commands, target, push, view_set);
   gpu::recordBarrier(commands, targets.linear,
                      {.from_stage = Stage::eComputeShader | Stage::eColorAttachmentOutput,
                       .to_stage = Stage::eComputeShader,
@@ -398,15 +420,24 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
                       .to_access = Access::eShaderStorageWrite,
                       .from = vk::ImageLayout::eShaderReadOnlyOptimal,
                       .to = vk::ImageLayout::eGeneral});
-  recordBins(commands, target, push, [&](const Bin& bin, vk::DescriptorSet set, const Push& own) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, bin.textured ? *textured_color_ : *plain_color_);
+  const auto bind = [&](const Bin& bin, vk::DescriptorSet set, const Push& push) {
+    const Sampled& own = sampled(target);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute,
+                          bin.textured ? *own.textured_color : *own.plain_color);
     const std::array<vk::DescriptorSet, 4> sets = {view_set, set,
                                                    layout_.assetSet(pairs_[bin.pair].index_chunk),
                                                    assets_.textures().set(bin.texture_set)};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
                                 nullptr);
-    commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, own);
-  });
+    commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  };
+  const auto resolve = [&](const Push& push) {
+    if (target.samples == 1) return;
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *resolve_);
+    commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+    gpu::recordDispatch(commands, listGroups(push.pixel_count), ENSEMBLE_RASTER_GROUPS_X);
+  };
+  recordBands(commands, view_set, target, near_plane, bind, resolve);
   gpu::recordBarrier(commands, targets.linear,
                      {.from_stage = Stage::eComputeShader,
                       .to_stage = Stage::eComputeShader,
@@ -417,17 +448,16 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
 }
 
 void ComputeRaster::recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
-                               const ViewTargets& /*targets*/, const Target& target, float near_plane) const {
-  const Push push = pushFor(camera_, target, near_plane);
-  recordList(commands, target, push, view_set);
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *aov_);
-  recordBins(commands, target, push, [&](const Bin& bin, vk::DescriptorSet set, const Push& own) {
+                               const Target& target, float near_plane) const {
+  const auto bind = [&](const Bin& bin, vk::DescriptorSet set, const Push& push) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *aov_);
     const std::array<vk::DescriptorSet, 4> sets = {
         view_set, set, layout_.assetSet(pairs_[bin.pair].index_chunk), target.aov_set[0]};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *aov_pipeline_layout_, ENSEMBLE_SET_VIEW,
                                 sets, nullptr);
-    commands.pushConstants<Push>(*aov_pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, own);
-  });
+    commands.pushConstants<Push>(*aov_pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  };
+  recordBands(commands, view_set, target, near_plane, bind, [](const Push&) {});
 }
 
 }  // namespace ensemble

@@ -6,6 +6,7 @@
 // depth.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -30,6 +31,8 @@ class ComputeRaster {
  public:
   /// What to see people from: the camera or the sun.
   enum class Eye : std::uint8_t { kCamera, kSun };
+  /// What is drawn: the picture, AOVs (from the camera, one sample) or the shadow map.
+  enum class Pass : std::uint8_t { kPicture, kAovs, kShadow };
 
   /// One eye's people and work, and the buffers they go through.
   struct Work {
@@ -41,11 +44,12 @@ class ComputeRaster {
     vk::raii::BufferView rows_view = nullptr, who_view = nullptr;
   };
 
-  /// What is drawn into, with a view's slot.
+  /// What a pass draws into, with a view's slot.
   struct Target {
-    std::uint32_t width = 0, height = 0;
-    gpu::Buffer visible;  ///< camera: depth and id of a pixel; sun: depth of a texel
-    gpu::Buffer pixels, bins;
+    Pass pass = Pass::kPicture;
+    std::uint32_t width = 0, height = 0, samples = 1;
+    gpu::Buffer visible;  ///< from the camera: depth and id of each sample; from the sun: depth of a texel
+    gpu::Buffer pixels, shaded, bins;
     gpu::DescriptorSets sets;  ///< per pair of buffers and buffer of poses
     gpu::DescriptorSets aov_set;
     std::uint32_t work_number = 0, pose_buffers = 0;
@@ -66,26 +70,27 @@ class ComputeRaster {
   std::uint64_t triangleCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->triangleCount() : 0; }
   const PosePool& poses() const { return poses_; }
 
-  Target makeTarget(Eye eye, const ViewTargets& targets);
+  /// Whether a picture of a size can be drawn with the device's buffers.
+  bool fits(const TargetSize& size) const;
+  Target makeTarget(Pass pass, const ViewTargets& targets);
   /// Makes sets right for the work that was planned. @pre the device is idle
-  void prepare(Eye eye, const ViewTargets& targets, Target& target);
+  void prepare(const ViewTargets& targets, Target& target);
 
   /// Skins what poses are new; before the first of the others.
   void recordPoses(const vk::raii::CommandBuffer& commands) { poses_.record(commands); }
   /// Clears the target and rasterises.
-  void record(const vk::raii::CommandBuffer& commands, Eye eye, vk::DescriptorSet view_set,
-              const Target& target, float near_plane) const;
+  void record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
+              float near_plane) const;
   /// Fills the shadow map with what record() left, in layout eTransferDstOptimal, and leaves it there.
   static void recordShadowMap(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
                               const Target& target);
-  /// Shades into `targets.linear` where people are in front of `targets.depth`, which is readable by compute
-  /// shaders; both as ColorPass leaves them.
+  /// Shades into `targets.linear` where people are in front of `targets.depth`; these, and `targets.samples`
+  /// if there is one, as ColorPass leaves them for shaders.
   void recordColor(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
                    const ViewTargets& targets, const Target& target, float near_plane) const;
-  /// The same into the images of the AOVs, in layout eGeneral.
-  void recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
-                  const ViewTargets& targets, const Target& target, float near_plane) const;
-  void makeAovSet(const ViewTargets& targets, Target& target) const;
+  /// The same into the images of the AOVs, in layout eGeneral, against `targets.aov_depth`.
+  void recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
+                  float near_plane) const;
 
  private:
   /// Items of a bin are shaded with the same buffers and textures bound.
@@ -101,8 +106,9 @@ class ComputeRaster {
   };
   struct Push;
 
-  Work& workOf(Eye eye) { return eye == Eye::kCamera ? camera_ : sun_; }
-  const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_; }
+  static Eye eyeOf(Pass pass) { return pass == Pass::kShadow ? Eye::kSun : Eye::kCamera; }
+  Work& workOf(Eye eye) { return eye == Eye::kCamera ? camera_ : sun_work_; }
+  const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_work_; }
   void makeItems();
   void makeShown();
   void createPipelines();
@@ -110,14 +116,13 @@ class ComputeRaster {
               std::span<const std::uint32_t> numbers);
   void writeSets(const Work& work, const ViewTargets& targets, Target& target) const;
   std::uint32_t binCount() const;
-  Push pushFor(const Work& work, const Target& target, float near_plane) const;
-  /// Lists the pixels and sorts them by bin. @param depth image it is compared with
-  void recordList(const vk::raii::CommandBuffer& commands, const Target& target, const Push& push,
-                  vk::DescriptorSet view_set) const;
-  /// Calls shade(bin) with that bin's sets bound and its pixels to be dispatched.
-  template <class Bind>
-  void recordBins(const vk::raii::CommandBuffer& commands, const Target& target, Push push,
-                  const Bind& bind) const;
+  Push pushFor(const Target& target, float near_plane) const;
+  /// Lists and shades, band by band: `bind` binds all for one bin's pixels, `finish` ends a band.
+  template <class Bind, class Finish>
+  void recordBands(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
+                   float near_plane, const Bind& bind, const Finish& finish) const;
+  void recordList(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
+                  const Push& push) const;
 
   gpu::Device& device_;
   const CrowdLayout& layout_;
@@ -132,13 +137,18 @@ class ComputeRaster {
   gpu::Buffer items_, shown_buffer_;
   vk::raii::BufferView items_view_ = nullptr, shown_view_ = nullptr, materials_view_ = nullptr,
                        tints_view_ = nullptr;
-  Work camera_, sun_;
+  Work camera_, sun_work_;
   vk::raii::Sampler sampler_ = nullptr;
   vk::raii::DescriptorSetLayout set_layout_ = nullptr, aov_layout_ = nullptr;
   vk::raii::PipelineLayout pipeline_layout_ = nullptr, aov_pipeline_layout_ = nullptr;
-  vk::raii::Pipeline camera_pipeline_ = nullptr, sun_pipeline_ = nullptr, list_ = nullptr,
-                     count_bins_ = nullptr, sort_ = nullptr, plain_color_ = nullptr,
-                     textured_color_ = nullptr, aov_ = nullptr;
+  /// Pipelines that depend on the number of samples: of one, of four.
+  struct Sampled {
+    vk::raii::Pipeline raster = nullptr, list = nullptr, plain_color = nullptr, textured_color = nullptr;
+  };
+  const Sampled& sampled(const Target& target) const { return sampled_[target.samples > 1 ? 1 : 0]; }
+  std::array<Sampled, 2> sampled_;
+  vk::raii::Pipeline sun_ = nullptr, count_bins_ = nullptr, sort_ = nullptr, resolve_ = nullptr,
+                     aov_ = nullptr;
 };
 
 }  // namespace ensemble

@@ -180,15 +180,15 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
 
 void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& picture) {
   refuseBeyondViewport(device_, view);
-  if (view.raster == RasterKind::kCompute) requireCompute(view);
   const ShadowFit fit = fitShadowMap(view, state_.bounds(), environment_ ? environment_->bounds() : Box());
   const TileGrid grid(view.width, view.height, limits_.tiles);
   Slot& slot = slotFor(view, grid, fit.size);
+  if (view.raster == RasterKind::kCompute) requireCompute(slot.targets.size);
   FrameStats stats;
   stats.gpu_mesh_bytes = assets_.meshBytes();
   stats.environment_bytes = environment_ ? environment_->meshBytes() : 0;
   if (compute_) compute_->beginFrame();
-  choosePeople(view, fit);
+  choosePeople(view, fit, slot.targets.size);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
   stats.characters_computed = static_cast<std::uint32_t>(computed_.size());
   buildShadowQueues(view, fit);
@@ -202,7 +202,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
     stats.characters_posed += state_.queuePoses(near_, shown_);
     if (is_first) stats.characters_posed += state_.queuePoses(near_casters_, shown_);
-    prepareCompute(slot);
+    prepareCompute(view, slot);
     record(view, slot, is_first);
     stats.cpu_ms += millisecondsSince(start);
     submitAndWait();
@@ -216,18 +216,20 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
   picture.stats = stats;
 }
 
-void FrameLoop::requireCompute(const View& view) const {
-  if (compute_ && view.samples == 1) return;
+void FrameLoop::requireCompute(const TargetSize& size) const {
+  if (mayCompute(size)) return;
   throw SystemError(
       {.file = {},
        .where = "Vulkan device " + device_.name(),
-       .what = compute_ ? "the compute rasteriser draws one sample a pixel, not 4"
+       .what = compute_ ? fmt::format("pictures of {} x {} pixels of {} samples don't fit the buffers of the "
+                                      "compute rasteriser",
+                                      size.width, size.height, size.samples)
                         : "it can't rasterise in compute shaders: it has no 64-bit atomics in buffers, or "
                           "no shuffles in subgroups",
-       .mend = compute_ ? "set output.samples to 1, or raster to auto" : "set raster to auto"});
+       .mend = "set raster to auto"});
 }
 
-void FrameLoop::choosePeople(const View& view, const ShadowFit& fit) {
+void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size) {
   findVisible(frustumOf(view), state_.bounds(), visible_);
   if (view.light.shadows) {
     findCasters(fit, state_.bounds(), casters_);
@@ -239,7 +241,7 @@ void FrameLoop::choosePeople(const View& view, const ShadowFit& fit) {
                             .heights = state_.heights(),
                             .longest_edges = longest_edges_,
                             .can_be_computed = can_be_computed_};
-  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_, compute_ && view.samples == 1);
+  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_, mayCompute(size));
   const auto is_computed = [&](std::uint32_t person) { return shown_.isComputed(person); };
   divide(visible_, is_computed, computed_, near_);
 }
@@ -259,11 +261,12 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
              .view_set = layout_.makeViewSets(device_, 1),
              .post_set = {},
              .computed = {},
-             .computed_shadow = {}});
+             .computed_shadow = {},
+             .computed_aovs = {}});
     slot->post_set = post_pass_.makeSet(device_, slot->targets);
-    if (compute_) {
-      slot->computed = compute_->makeTarget(ComputeRaster::Eye::kCamera, slot->targets);
-      slot->computed_shadow = compute_->makeTarget(ComputeRaster::Eye::kSun, slot->targets);
+    if (mayCompute(size)) {
+      slot->computed = compute_->makeTarget(ComputeRaster::Pass::kPicture, slot->targets);
+      slot->computed_shadow = compute_->makeTarget(ComputeRaster::Pass::kShadow, slot->targets);
     }
     gpu::writeBuffer(device_, slot->view_set[0], ENSEMBLE_BINDING_VIEW, slot->view_buffer,
                      vk::DescriptorType::eUniformBuffer);
@@ -277,7 +280,8 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   if (!view.aovs.empty()) {
     if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
     if (environment_pass_) environment_pass_->prepareAovs();
-    if (compute_) compute_->makeAovSet((*found)->targets, (*found)->computed);
+    if (mayCompute((*found)->targets.size) && (*found)->computed_aovs.width == 0)
+      (*found)->computed_aovs = compute_->makeTarget(ComputeRaster::Pass::kAovs, (*found)->targets);
   }
   if (view.coverage && !coverage_pass_)
     coverage_pass_ = std::make_unique<CoveragePass>(device_, layout_, assets_);
@@ -307,10 +311,11 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
                           shadow_environment_);
 }
 
-void FrameLoop::prepareCompute(Slot& slot) {
+void FrameLoop::prepareCompute(const View& view, Slot& slot) {
   using Eye = ComputeRaster::Eye;
-  if (computes(Eye::kCamera)) compute_->prepare(Eye::kCamera, slot.targets, slot.computed);
-  if (computes(Eye::kSun)) compute_->prepare(Eye::kSun, slot.targets, slot.computed_shadow);
+  if (computes(Eye::kCamera)) compute_->prepare(slot.targets, slot.computed);
+  if (computes(Eye::kCamera) && !view.aovs.empty()) compute_->prepare(slot.targets, slot.computed_aovs);
+  if (computes(Eye::kSun)) compute_->prepare(slot.targets, slot.computed_shadow);
 }
 
 void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
@@ -328,7 +333,7 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain, computed);
   if (computed) {
     const float near_plane = view.camera.near_plane;
-    compute_->record(commands_, ComputeRaster::Eye::kCamera, draw.view_set, slot.computed, near_plane);
+    compute_->record(commands_, draw.view_set, slot.computed, near_plane);
     compute_->recordColor(commands_, draw.view_set, slot.targets, slot.computed, near_plane);
   }
   post_pass_.record(commands_, slot.targets, slot.post_set[0], view.linear);
@@ -344,7 +349,7 @@ void FrameLoop::recordShadows(const View& view, const Slot& slot) {
                        .environment = {environment_pass_.get(), &shadow_environment_, kEnvironmentShadow}};
   std::function<void()> fill;
   if (computes(Eye::kSun)) {
-    compute_->record(commands_, Eye::kSun, draw.view_set, slot.computed_shadow, view.camera.near_plane);
+    compute_->record(commands_, draw.view_set, slot.computed_shadow, view.camera.near_plane);
     fill = [&] { ComputeRaster::recordShadowMap(commands_, slot.targets, slot.computed_shadow); };
   }
   shadow_pass_.record(commands_, draw, slot.targets, counter_, kShadow, fill);
@@ -358,7 +363,8 @@ void FrameLoop::recordAovs(const View& view, const Slot& slot) {
                        .view_set = slot.view_set[0],
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   const auto draw_computed = [&] {
-    compute_->recordAovs(commands_, draw.view_set, slot.targets, slot.computed, view.camera.near_plane);
+    compute_->record(commands_, draw.view_set, slot.computed_aovs, view.camera.near_plane);
+    compute_->recordAovs(commands_, draw.view_set, slot.computed_aovs, view.camera.near_plane);
   };
   std::function<void()> more;  // by reference: a copy would allocate
   if (computes(ComputeRaster::Eye::kCamera)) more = std::cref(draw_computed);

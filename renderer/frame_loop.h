@@ -44,7 +44,7 @@ class FrameLoop {
     ViewTargets targets;
     gpu::Buffer view_buffer;
     gpu::DescriptorSets view_set, post_set;
-    ComputeRaster::Target computed, computed_shadow;
+    ComputeRaster::Target computed, computed_shadow, computed_aovs;
   };
   enum Pass : std::uint32_t { kShadow, kMain, kEnvironmentShadow, kEnvironmentMain, kPassCount };
 
@@ -52,12 +52,13 @@ class FrameLoop {
   /// Draws a view at the state's time, tile by tile; `start` is when its turn came.
   void drawView(const View& view, std::chrono::steady_clock::time_point start, Picture& picture);
   /// Finds who is in sight and who casts shadows, and decides how they are drawn.
-  void choosePeople(const View& view, const ShadowFit& fit);
+  void choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size);
   /// @throws SystemError if a view asks for the compute rasteriser and can't have it
-  void requireCompute(const View& view) const;
+  void requireCompute(const TargetSize& size) const;
+  bool mayCompute(const TargetSize& size) const { return compute_ && compute_->fits(size); }
   void buildQueues(const View& view, const Tile& tile);
   void buildShadowQueues(const View& view, const ShadowFit& fit);
-  void prepareCompute(Slot& slot);
+  void prepareCompute(const View& view, Slot& slot);
   void record(const View& view, const Slot& slot, bool draws_shadows);
   void recordShadows(const View& view, const Slot& slot);
   void recordAovs(const View& view, const Slot& slot);

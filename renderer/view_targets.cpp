@@ -59,7 +59,8 @@ ViewTargets::ViewTargets(gpu::Device& device, const TargetSize& target_size, std
                            .format = kDepthFormat,
                            .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferDst},
                           "the shadow map");
-  if (size.samples > 1) samples = image(kColorFormat, Usage::eColorAttachment, size.samples);
+  if (size.samples > 1)
+    samples = image(kColorFormat, Usage::eColorAttachment | Usage::eSampled, size.samples);
   linear = image(kColorFormat,
                  Usage::eColorAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eStorage, 1);
   depth = image(kDepthFormat, Usage::eDepthStencilAttachment | Usage::eSampled, size.samples);
@@ -86,7 +87,7 @@ void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
     aov_readbacks[i] = Readback(device, aovs[i], kAovPixelBytes[i], max_buffer_bytes);
   }
   options.format = kDepthFormat;
-  options.usage = Usage::eDepthStencilAttachment;
+  options.usage = Usage::eDepthStencilAttachment | Usage::eSampled;
   aov_depth = gpu::Image(device, options, what);
 }
 

@@ -30,6 +30,9 @@ layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std4
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer SunDepth { uint sun_depth[]; };
 
 const int kSubpixels = 1 << ENSEMBLE_SUBPIXEL_BITS;
+// Where samples are, in sub-pixels from a pixel's centre: Vulkan's standard places for 4.
+const ivec2 kPlaces[4] = ivec2[4](ivec2(-32, -96), ivec2(96, -32), ivec2(-96, 32), ivec2(32, 96));
+const int kReach = kSamples == 1 ? 0 : 96;
 
 struct Screen {
   ivec2 at;  // sub-pixels from the centre of pixel (0, 0)
@@ -52,11 +55,11 @@ Screen toScreen(vec3 position, vec4 row[3]) {
 }
 
 // What a sample gets: depth in front of everything else, then the lower id.
-void keep(int pixel, float depth, uint id) {
+void keep(int number, float depth, uint id) {
   if (kToSun) {
-    atomicMax(sun_depth[pixel], floatBitsToUint(clamp(depth, 0.0, 1.0)));
+    atomicMax(sun_depth[number], floatBitsToUint(clamp(depth, 0.0, 1.0)));
   } else {
-    atomicMax(visible[pixel], uint64_t(floatBitsToUint(depth)) << 32 | uint64_t(~id));
+    atomicMax(visible[number], uint64_t(floatBitsToUint(depth)) << 32 | uint64_t(~id));
   }
 }
 
@@ -73,16 +76,16 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, uint id, bool is
     ac = c.at - a.at;
     area = -area;
   }
-  ivec2 low = max((min(a.at, min(b.at, c.at)) + (kSubpixels - 1)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
-  ivec2 high = min(max(a.at, max(b.at, c.at)) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
+  ivec2 low = max((min(a.at, min(b.at, c.at)) + (kSubpixels - 1 - kReach)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
+  ivec2 high = min((max(a.at, max(b.at, c.at)) + kReach) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
   if (is_there && area > 0 && low.x <= high.x && low.y <= high.y) {
     ivec2 bc = c.at - b.at, from = low << ENSEMBLE_SUBPIXEL_BITS;
     // Twice the areas opposite of b and c, and of a, at the first pixel; steps to the right and down.
     int e_b = ac.y * (a.at.x - from.x) - ac.x * (a.at.y - from.y);
     int e_c = ab.x * (a.at.y - from.y) - ab.y * (a.at.x - from.x);
     int e_a = area - e_b - e_c;
-    ivec3 right = ivec3(bc.y, -ac.y, ab.y) << ENSEMBLE_SUBPIXEL_BITS;
-    ivec3 down = ivec3(-bc.x, ac.x, -ab.x) << ENSEMBLE_SUBPIXEL_BITS;
+    ivec3 by_x = ivec3(bc.y, -ac.y, ab.y), by_y = ivec3(-bc.x, ac.x, -ab.x);
+    ivec3 right = by_x << ENSEMBLE_SUBPIXEL_BITS, down = by_y << ENSEMBLE_SUBPIXEL_BITS;
     float per_area = 1.0 / float(area);
     float by_b = (b.depth - a.depth) * per_area, by_c = (c.depth - a.depth) * per_area;
     float nearest = a.depth;
@@ -97,7 +100,14 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, uint id, bool is
     ivec3 next_row = down - columns * right;
     int pixel = low.y * int(width) + low.x, last = high.y * int(width) + high.x, next_pixel = int(width) - columns;
     [[dont_unroll]] for (;;) {
-      if ((e.x | e.y | e.z) >= 0) keep(pixel, nearest + by_b * float(e.y) + by_c * float(e.z), id);
+      if (kSamples == 1) {
+        if ((e.x | e.y | e.z) >= 0) keep(pixel, nearest + by_b * float(e.y) + by_c * float(e.z), id);
+      } else {
+        [[unroll]] for (int i = 0; i < 4; ++i) {
+          ivec3 s = e + by_x * kPlaces[i].x + by_y * kPlaces[i].y;
+          if ((s.x | s.y | s.z) >= 0) keep(4 * pixel + i, nearest + by_b * float(s.y) + by_c * float(s.z), id);
+        }
+      }
       bool wraps = x == columns;
       x = wraps ? 0 : x + 1;
       pixel += wraps ? next_pixel : 1;

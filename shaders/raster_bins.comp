@@ -8,7 +8,7 @@
 layout(local_size_x = 1) in;
 
 void main() {
-  uint first = width * height;  // behind those found
+  uint first = bins[bin_count].count;  // behind those found
   for (uint i = 0u; i <= bin_count; ++i) {
     uint count = bins[i].count;
     uint groups = (count + ENSEMBLE_LIST_GROUP - 1u) / ENSEMBLE_LIST_GROUP;

@@ -14,6 +14,9 @@ layout(constant_id = ENSEMBLE_CONSTANT_TEXTURED) const bool kTextured = false;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_MATERIALS) uniform usamplerBuffer materials;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TINTS) uniform samplerBuffer tints;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_PICTURE, rgba16f) uniform writeonly image2D picture;
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_SHADED, std430) writeonly buffer Shaded {
+  uvec2 shaded[];  // of each sample of the band: four halves
+};
 layout(set = ENSEMBLE_SET_TEXTURE, binding = 0) uniform sampler2DArray base_color_textures;
 
 vec4 tintColor(uint number) { return texelFetch(tints, int(number)); }
@@ -50,5 +53,12 @@ void main() {
   vec3 albedo = tinted(color.rgb, material, s.person.z, part);
   vec3 normal = normalize(s.is_front ? s.normal : -s.normal);
   vec3 lit = litPerson(albedo, material.sheen, s.world, normal);
-  imageStore(picture, ivec2(s.pixel % width, s.pixel / width), vec4(lit, 1.0));
+  if (kSamples == 1) {
+    imageStore(picture, ivec2(s.pixel % width, s.pixel / width), vec4(lit, 1.0));
+  } else {
+    uvec2 halves = uvec2(packHalf2x16(lit.rg), packHalf2x16(vec2(lit.b, 1.0)));
+    for (uint i = 0u; i < 4u; ++i) {
+      if ((s.samples & (1u << i)) != 0u) shaded[4u * (s.pixel - first_pixel) + i] = halves;
+    }
+  }
 }

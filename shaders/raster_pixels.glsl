@@ -1,7 +1,7 @@
 // What a pixel of the compute rasteriser shows: person, item and triangle, and where in the triangle. Included
 // after raster_sets.glsl.
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) readonly buffer Visible {
-  uvec2 visible[];  // id, inverted; depth
+  uvec2 visible[];  // of each sample: id, inverted; depth
 };
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_VERTICES) uniform usamplerBuffer vertices;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ITEMS) uniform usamplerBuffer items;
@@ -10,7 +10,7 @@ layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ITEMS) unifo
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_SHOWN) uniform usamplerBuffer shown;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_POSE_TABLE) uniform usamplerBuffer pose_table;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_PIXELS, std430) buffer Pixels {
-  uvec2 pixels[];  // pixel; item. First those found, then the same sorted by bin
+  uvec2 pixels[];  // pixel and samples; item and bin. First those found, then the same sorted by bin
 };
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_BINS, std430) buffer Bins {
   GpuRasterBin bins[];  // the last is of all

@@ -16,7 +16,11 @@ layout(push_constant) uniform Push {
   float near_plane;  // to the sun: the slope bias
   uint bin;
   uint bin_count;
+  uint first_pixel;  // of the band
+  uint pixel_count;
 };
+
+layout(constant_id = ENSEMBLE_CONSTANT_SAMPLES) const int kSamples = 1;  // 1 or 4
 
 // A position as poses keep it: whole numbers.
 vec3 keptPosition(uvec2 kept) {

@@ -1,6 +1,7 @@
 // The surface at a listed pixel. Included after raster_pixels.glsl.
 struct Surface {
   uint pixel;
+  uint samples;  // bits
   uvec4 person;  // GpuRasterWho
   uvec4 item_0, item_1, item_2;
   uint triangle;      // of the item
@@ -33,8 +34,12 @@ vec3 sharesAt(vec3 a, vec3 b, vec3 c, vec2 at) {
   return vec3(q.x * r.y - q.y * r.x, r.x * p.y - r.y * p.x, p.x * q.y - p.y * q.x);
 }
 
+// With one sample a shown pixel's centre lies in the triangle, whatever the rounding; with several it may lie
+// beside it, where pipelines go on along the triangle's plane.
 vec3 unitShares(vec3 shares) {
-  shares = clamp(shares / (shares.x + shares.y + shares.z), 0.0, 1.0);
+  shares /= shares.x + shares.y + shares.z;
+  if (kSamples > 1) return shares;
+  shares = clamp(shares, 0.0, 1.0);
   return shares / (shares.x + shares.y + shares.z);
 }
 
@@ -44,8 +49,9 @@ vec2 vertexUv(uint vertex) {
 
 Surface surfaceAt(uvec2 listed, bool textured) {
   Surface s;
-  s.pixel = listed.x;
-  uvec2 key = visible[s.pixel];
+  s.pixel = listed.x & ((1u << ENSEMBLE_LISTED_PIXEL_BITS) - 1u);
+  s.samples = listed.x >> ENSEMBLE_LISTED_PIXEL_BITS;
+  uvec2 key = visible[kSamples == 1 ? s.pixel : 4u * s.pixel + findLSB(s.samples)];
   s.depth = uintBitsToFloat(key.y);
   uint id = ~key.x;
   s.person = texelFetch(who, int(id >> face_bits));

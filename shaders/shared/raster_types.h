@@ -28,6 +28,9 @@
 #define ENSEMBLE_BINDING_RASTER_BINS 15
 #define ENSEMBLE_BINDING_RASTER_DEPTH 16
 #define ENSEMBLE_BINDING_RASTER_PICTURE 17
+// With several samples: their colours as the graphics pipeline drew them, and as shaded here.
+#define ENSEMBLE_BINDING_RASTER_DRAWN 18
+#define ENSEMBLE_BINDING_RASTER_SHADED 19
 
 // The pass that skins poses has a set of its own.
 #define ENSEMBLE_BINDING_SKIN_JOBS 0
@@ -39,6 +42,7 @@
 // Specialisation constants of the rasteriser.
 #define ENSEMBLE_CONSTANT_LANES 3
 #define ENSEMBLE_CONSTANT_TO_SUN 4
+#define ENSEMBLE_CONSTANT_SAMPLES 5
 
 // Bits of a sub-pixel coordinate, as graphics pipelines have them.
 #define ENSEMBLE_SUBPIXEL_BITS 8
@@ -48,6 +52,10 @@
 #define ENSEMBLE_SKIN_GROUP 64
 // Pixels that a group looks through.
 #define ENSEMBLE_LIST_GROUP 64
+// Pixels that are listed and shaded at a time.
+#define ENSEMBLE_RASTER_BAND (1u << 20)
+// In a listed pixel: its number in the target, and which of its samples it is for.
+#define ENSEMBLE_LISTED_PIXEL_BITS 28
 // Groups along x of dispatches that may be larger than a device's limit along one axis.
 #define ENSEMBLE_RASTER_GROUPS_X 32768
 
