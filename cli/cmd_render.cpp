@@ -37,6 +37,13 @@ Json toJson(const PassStats& pass) {
           {"triangles", pass.triangles}};
 }
 
+Json toJson(const PoseStats& poses) {
+  return {{"kept", poses.kept},
+          {"skinned", poses.skinned},
+          {"skinned_vertices", poses.skinned_vertices},
+          {"kept_bytes", poses.kept_bytes}};
+}
+
 Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stats) {
   return {{"index", index},
           {"file", file},
@@ -44,6 +51,9 @@ Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stat
           {"cpu_ms", stats.cpu_ms},
           {"characters_drawn", stats.characters_drawn},
           {"characters_posed", stats.characters_posed},
+          {"characters_computed", stats.characters_computed},
+          {"triangles_computed", stats.triangles_computed},
+          {"poses", toJson(stats.poses)},
           {"draw_calls", stats.drawCalls()},
           {"vertex_invocations", orNull(stats.vertexInvocations())},
           {"triangles", stats.triangles()},

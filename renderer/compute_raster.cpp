@@ -71,23 +71,31 @@ ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, con
   camera_.eye = Eye::kCamera;
   sun_work_.eye = Eye::kSun;
   for (Work* work : {&camera_, &sun_work_}) {
-    work->plan = std::make_unique<RasterPlan>(plan_items_, shown_,
-                                              static_cast<std::uint32_t>(state.keyFrames().keys.size()),
-                                              device.subgroupSize() * ENSEMBLE_RASTER_RUN);
+    work->plan =
+        std::make_unique<RasterPlan>(planItems(work->eye), work->eye == Eye::kSun ? casting_ : shown_,
+                                     static_cast<std::uint32_t>(state.keyFrames().keys.size()),
+                                     device.subgroupSize() * ENSEMBLE_RASTER_RUN);
   }
 }
 
+namespace {
+
+/// The number of a value among those known; it becomes known.
+template <class T>
+std::uint32_t numberOf(std::vector<T>& known, const T& value) {
+  const auto found = std::find(known.begin(), known.end(), value);
+  const auto number = static_cast<std::uint32_t>(found - known.begin());
+  if (found == known.end()) known.push_back(value);
+  return number;
+}
+
+}  // namespace
+
 void ComputeRaster::makeItems() {
-  const auto number_of = [](auto& known, const auto& value) {
-    const auto found = std::find(known.begin(), known.end(), value);
-    if (found != known.end()) return static_cast<std::uint32_t>(found - known.begin());
-    known.push_back(value);
-    return static_cast<std::uint32_t>(known.size() - 1);
-  };
   std::vector<GpuRasterItem> gpu;
   for (const DrawItem& item : assets_.items()) {
-    const std::uint32_t pair = number_of(pairs_, Pair{item.state.index_chunk, item.state.vertex_chunk});
-    const std::uint32_t bin = number_of(bins_, Bin{pair, item.state.texture_set, item.state.textured});
+    const std::uint32_t pair = numberOf(pairs_, Pair{item.state.index_chunk, item.state.vertex_chunk});
+    const std::uint32_t bin = numberOf(bins_, Bin{pair, item.state.texture_set, item.state.textured});
     gpu.push_back({.first_index = item.first_index,
                    .first_vertex = static_cast<std::uint32_t>(item.vertex_offset),
                    .first_pose = poses_.firstPose(item.mesh),
@@ -97,35 +105,51 @@ void ComputeRaster::makeItems() {
                    .first_face = item.gpu.first_face,
                    .face_offset = item.gpu.face_offset,
                    .unused = {}});
-    plan_items_.push_back({.mesh = item.mesh,
-                           .first_index = item.first_index,
-                           .triangle_count = item.index_count / 3,
-                           .buffers = pair,
-                           .is_double_sided = item.state.double_sided});
   }
   using Usage = vk::BufferUsageFlagBits;
   items_ = gpu::uploadBuffer(device_, std::as_bytes(std::span(gpu)), Usage::eUniformTexelBuffer, "the items");
   items_view_ = items_.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
 }
 
+std::vector<PlanItem> ComputeRaster::planItems(Eye eye) {
+  std::vector<PlanItem> items;
+  for (const DrawItem& item : assets_.items()) {
+    const std::uint32_t pair = numberOf(pairs_, Pair{item.state.index_chunk, item.state.vertex_chunk});
+    const RasterState state{.pair = pair,
+                            .cut_out = item.state.cut_out,
+                            .hides_faces = eye == Eye::kSun && item.state.hides_faces,
+                            .texture_set = item.state.cut_out ? item.state.texture_set : 0};
+    items.push_back({.mesh = item.mesh,
+                     .state = numberOf(states_, state),
+                     .work = {.first_index = item.first_index,
+                              .triangle_count = item.index_count / 3,
+                              .pose = 0,
+                              .first_entry = 0,
+                              .entry_count = 0,
+                              .is_double_sided = item.state.double_sided ? 1u : 0u,
+                              .first_face = item.gpu.first_face,
+                              .first_vertex = static_cast<std::uint32_t>(item.vertex_offset),
+                              .material = item.gpu.material}});
+  }
+  return items;
+}
+
 void ComputeRaster::makeShown() {
   const auto combination_count = static_cast<std::uint32_t>(assets_.shown().size());
   std::vector<std::array<std::uint32_t, 2>> table(combination_count);
   for (std::uint32_t c = 0; c < combination_count; ++c) {
-    std::vector<ShownItem>& shown = shown_.emplace_back();
-    bool can_draw = true;
+    std::vector<ShownItem>&shown = shown_.emplace_back(), &casting = casting_.emplace_back();
     std::uint32_t face = 0;
     const auto first = static_cast<std::uint32_t>(table.size());
     for (const SubMeshId id : assets_.shown()[c]) {
       const DrawItem& item = assets_.items()[id.value];
       if (item.index_count == 0) continue;
-      can_draw = can_draw && !item.state.cut_out && !item.state.hides_faces && item.gpu.is_covered == 0;
       shown.push_back({id.value, face});
+      if (item.gpu.is_covered == 0) casting.push_back({id.value, face});
       table.push_back({id.value, face});
       face += item.index_count / 3;
     }
     table[c] = {first, static_cast<std::uint32_t>(shown.size())};
-    can_draw_.push_back(can_draw && !shown.empty() ? 1 : 0);
   }
   shown_buffer_ = gpu::uploadBuffer(device_, std::as_bytes(std::span(table)),
                                     vk::BufferUsageFlagBits::eUniformTexelBuffer, "what combinations show");
@@ -152,14 +176,17 @@ void ComputeRaster::createPipelines() {
 
   struct Constants {
     std::uint32_t lanes;
-    vk::Bool32 to_sun, textured;
-    std::int32_t samples;
+    vk::Bool32 to_sun = false, textured = false;
+    std::int32_t samples = 1;
+    vk::Bool32 cut_out = false, hides_faces = false;
   };
-  constexpr std::array<vk::SpecializationMapEntry, 4> kEntries = {{
+  constexpr std::array<vk::SpecializationMapEntry, 6> kEntries = {{
       {ENSEMBLE_CONSTANT_LANES, offsetof(Constants, lanes), sizeof(std::uint32_t)},
       {ENSEMBLE_CONSTANT_TO_SUN, offsetof(Constants, to_sun), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_TEXTURED, offsetof(Constants, textured), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_SAMPLES, offsetof(Constants, samples), sizeof(std::int32_t)},
+      {ENSEMBLE_CONSTANT_CUT_OUT, offsetof(Constants, cut_out), sizeof(vk::Bool32)},
+      {ENSEMBLE_CONSTANT_HIDE_FACES, offsetof(Constants, hides_faces), sizeof(vk::Bool32)},
   }};
   const auto make = [&](const vk::raii::PipelineLayout& layout, std::span<const std::uint32_t> spirv,
                         Constants constants) {
@@ -170,19 +197,35 @@ void ComputeRaster::createPipelines() {
     return gpu::makeComputePipeline(device_, layout, spirv, &info);
   };
   const std::uint32_t lanes = device_.subgroupSize();
+  const auto make_one = [&](std::span<const std::uint32_t> spirv, const Constants& constants) {
+    return make(pipeline_layout_, spirv, constants);
+  };
   for (const std::int32_t samples : {1, 4}) {
     Sampled& own = sampled_[samples > 1 ? 1 : 0];
-    own.raster = make(pipeline_layout_, kRasterComp, {lanes, false, false, samples});
-    own.list = samples > 1 ? make(pipeline_layout_, kRasterListSamplesComp, {lanes, false, false, samples})
-                           : make(pipeline_layout_, kRasterListComp, {lanes, false, false, samples});
-    own.plain_color = make(pipeline_layout_, kRasterColorComp, {lanes, false, false, samples});
-    own.textured_color = make(pipeline_layout_, kRasterColorComp, {lanes, false, true, samples});
+    const Constants plain{.lanes = lanes, .samples = samples};
+    Constants textured = plain, cut_out = plain;
+    textured.textured = true;
+    cut_out.cut_out = true;
+    own.raster = make_one(kRasterComp, plain);
+    own.cut_out_raster = make_one(kRasterComp, cut_out);
+    own.list = samples > 1 ? make_one(kRasterListSamplesComp, plain) : make_one(kRasterListComp, plain);
+    own.plain_color = make_one(kRasterColorComp, plain);
+    own.textured_color = make_one(kRasterColorComp, textured);
   }
-  sun_ = make(pipeline_layout_, kRasterComp, {lanes, true, false, 1});
-  count_bins_ = make(pipeline_layout_, kRasterBinsComp, {lanes, false, false, 1});
-  sort_ = make(pipeline_layout_, kRasterSortComp, {lanes, false, false, 1});
-  resolve_ = make(pipeline_layout_, kRasterResolveComp, {lanes, false, false, 4});
-  aov_ = make(aov_pipeline_layout_, kRasterAovComp, {lanes, false, false, 1});
+  for (std::uint32_t i = 0; i < sun_.size(); ++i) {
+    sun_[i] =
+        make_one(kRasterComp, {.lanes = lanes, .to_sun = true, .cut_out = i & 1u, .hides_faces = i >> 1});
+  }
+  count_bins_ = make_one(kRasterBinsComp, {.lanes = lanes});
+  sort_ = make_one(kRasterSortComp, {.lanes = lanes});
+  resolve_ = make_one(kRasterResolveComp, {.lanes = lanes, .samples = 4});
+  aov_ = make(aov_pipeline_layout_, kRasterAovComp, {.lanes = lanes});
+}
+
+const vk::raii::Pipeline& ComputeRaster::rasterPipeline(const Target& target,
+                                                        const RasterState& state) const {
+  if (target.pass == Pass::kShadow) return sun_[(state.cut_out ? 1u : 0u) + (state.hides_faces ? 2u : 0u)];
+  return state.cut_out ? sampled(target).cut_out_raster : sampled(target).raster;
 }
 
 void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
@@ -341,11 +384,13 @@ void ComputeRaster::record(const vk::raii::CommandBuffer& commands, vk::Descript
   commands.fillBuffer(target.visible.handle(), 0, VK_WHOLE_SIZE, 0);
   gpu::recordBarrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
                      Access::eShaderStorageRead | Access::eShaderStorageWrite);
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, to_sun ? *sun_ : *sampled(target).raster);
   Push push = pushFor(target, to_sun ? kShadowSlopeBias : near_plane);
   for (const PlanBatch& batch : workOf(eyeOf(target.pass)).plan->batches()) {
-    const std::array<vk::DescriptorSet, 2> sets = {
-        view_set, target.sets[batch.pose_buffer * pairs_.size() + batch.buffers]};
+    const RasterState& state = states_[batch.state];
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *rasterPipeline(target, state));
+    const std::array<vk::DescriptorSet, 4> sets = {
+        view_set, target.sets[batch.pose_buffer * pairs_.size() + state.pair],
+        layout_.assetSet(pairs_[state.pair].index_chunk), assets_.textures().set(state.texture_set)};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
                                 nullptr);
     push.first_group = batch.first_group;

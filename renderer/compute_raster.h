@@ -59,9 +59,6 @@ class ComputeRaster {
   ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
                 const CrowdState& state, const ComputeRasterOptions& options);
 
-  /// Whether all that a combination shows can be drawn here.
-  bool canDraw(std::uint32_t combination) const { return can_draw_[combination] != 0; }
-
   void beginFrame() { poses_.beginFrame(); }
   /// Plans an eye's work. @param numbers of people in the crowd, ascending; they have keys
   void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
@@ -104,6 +101,14 @@ class ComputeRaster {
     std::uint32_t index_chunk = 0, vertex_chunk = 0;
     auto operator<=>(const Pair&) const = default;
   };
+  /// What is bound to rasterise items.
+  struct RasterState {
+    std::uint32_t pair = 0;
+    bool cut_out = false;
+    bool hides_faces = false;       ///< naive: hidden faces cast no shadow
+    std::uint32_t texture_set = 0;  ///< of cut-outs, else 0
+    auto operator<=>(const RasterState&) const = default;
+  };
   struct Push;
 
   static Eye eyeOf(Pass pass) { return pass == Pass::kShadow ? Eye::kSun : Eye::kCamera; }
@@ -111,6 +116,9 @@ class ComputeRaster {
   const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_work_; }
   void makeItems();
   void makeShown();
+  /// The items as an eye sees them.
+  std::vector<PlanItem> planItems(Eye eye);
+  const vk::raii::Pipeline& rasterPipeline(const Target& target, const RasterState& state) const;
   void createPipelines();
   void upload(Work& work, const ScreenRows& rows, const CrowdState& state,
               std::span<const std::uint32_t> numbers);
@@ -131,9 +139,9 @@ class ComputeRaster {
   PosePool poses_;
   std::vector<Pair> pairs_;
   std::vector<Bin> bins_;
-  std::vector<PlanItem> plan_items_;
-  std::vector<std::vector<ShownItem>> shown_;
-  std::vector<std::uint8_t> can_draw_;
+  std::vector<RasterState> states_;
+  std::vector<std::vector<ShownItem>> shown_,
+      casting_;  ///< per combination: in the picture; in the shadow map
   gpu::Buffer items_, shown_buffer_;
   vk::raii::BufferView items_view_ = nullptr, shown_view_ = nullptr, materials_view_ = nullptr,
                        tints_view_ = nullptr;
@@ -143,12 +151,14 @@ class ComputeRaster {
   vk::raii::PipelineLayout pipeline_layout_ = nullptr, aov_pipeline_layout_ = nullptr;
   /// Pipelines that depend on the number of samples: of one, of four.
   struct Sampled {
-    vk::raii::Pipeline raster = nullptr, list = nullptr, plain_color = nullptr, textured_color = nullptr;
+    vk::raii::Pipeline raster = nullptr, cut_out_raster = nullptr, list = nullptr, plain_color = nullptr,
+                       textured_color = nullptr;
   };
   const Sampled& sampled(const Target& target) const { return sampled_[target.samples > 1 ? 1 : 0]; }
   std::array<Sampled, 2> sampled_;
-  vk::raii::Pipeline sun_ = nullptr, count_bins_ = nullptr, sort_ = nullptr, resolve_ = nullptr,
-                     aov_ = nullptr;
+  std::array<vk::raii::Pipeline, 4> sun_ = {nullptr, nullptr, nullptr,
+                                            nullptr};  // cut out: 1, hides faces: 2
+  vk::raii::Pipeline count_bins_ = nullptr, sort_ = nullptr, resolve_ = nullptr, aov_ = nullptr;
 };
 
 }  // namespace ensemble

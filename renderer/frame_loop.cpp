@@ -133,15 +133,12 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
       shadow_queues_(device, layout_, assets, state),
       counter_(device, kPassCount),
       shadow_sampler_(makeShadowSampler(device)),
-      longest_edges_(std::move(longest_edges)),
-      can_be_computed_(state.characterCount(), 0) {
+      longest_edges_(std::move(longest_edges)) {
   if (!longest_edges_.empty()) {
     compute_ =
         std::make_unique<ComputeRaster>(device, layout_, assets, state,
                                         ComputeRasterOptions{.pose_cache_bytes = limits.pose_cache_bytes,
                                                              .max_buffer_bytes = limits.max_buffer_bytes});
-    for (std::uint32_t i = 0; i < can_be_computed_.size(); ++i)
-      can_be_computed_[i] = compute_->canDraw(state.combinations()[i]) ? 1 : 0;
   }
   longest_edges_.resize(state.characterCount(), 0.0f);
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
@@ -239,8 +236,7 @@ void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const Targe
   const PeopleAtTime people{.characters = state_.characters(),
                             .bounds = state_.bounds(),
                             .heights = state_.heights(),
-                            .longest_edges = longest_edges_,
-                            .can_be_computed = can_be_computed_};
+                            .longest_edges = longest_edges_};
   shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_, mayCompute(size));
   const auto is_computed = [&](std::uint32_t person) { return shown_.isComputed(person); };
   divide(visible_, is_computed, computed_, near_);
@@ -417,10 +413,10 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
     stats.main.triangles += computed;
     stats.triangles_computed += computed;
     const PoseCacheStats& poses = compute_->poses().stats();
-    stats.pose_hits = poses.hits;
-    stats.pose_misses = poses.misses;
-    stats.pose_bytes = poses.kept_vertices * 2 * sizeof(std::uint32_t);
-    stats.vertices_skinned = compute_->poses().skinnedVertices();
+    stats.poses = {.kept = poses.hits,
+                   .skinned = poses.misses,
+                   .skinned_vertices = compute_->poses().skinnedVertices(),
+                   .kept_bytes = poses.kept_vertices * 2 * sizeof(std::uint32_t)};
   }
   add_environment(main_environment_, kEnvironmentMain, stats.main);
   if (!drew_shadows) return;

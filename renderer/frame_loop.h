@@ -92,7 +92,6 @@ class FrameLoop {
   std::vector<std::unique_ptr<Slot>> slots_;  // oldest first
   ViewPeople shown_;
   std::vector<float> longest_edges_;              // per person
-  std::vector<std::uint8_t> can_be_computed_;     // likewise
   std::vector<std::uint32_t> visible_, casters_;  // all of them; the rest are parts of these
   std::vector<std::uint32_t> near_, computed_, near_casters_, computed_casters_;
   std::vector<std::uint32_t> first_of_chunk_;  // per chunk of people: the number of its first

@@ -13,21 +13,27 @@ struct PassStats {
   std::optional<std::uint64_t> vertex_invocations;  ///< measured; none where the device can't
 };
 
+/// Meshes at key frames, for the compute rasteriser.
+struct PoseStats {
+  std::uint64_t kept = 0;              ///< of those drawn: kept from an earlier frame
+  std::uint64_t skinned = 0;           ///< the others
+  std::uint64_t skinned_vertices = 0;  ///< of these
+  std::uint64_t kept_bytes = 0;        ///< of all that are kept after the frame
+};
+
 struct FrameStats {
-  std::uint32_t characters_drawn = 0;            ///< people whose bounds touch the picture
-  std::uint32_t characters_posed = 0;            ///< people whose poses this view needed first at its time
-  std::uint32_t characters_computed = 0;         ///< of those drawn: by the compute rasteriser
-  std::uint64_t triangles_computed = 0;          ///< of the picture's triangles, likewise
-  std::uint64_t vertices_skinned = 0;            ///< of key frames that were not kept from an earlier frame
-  std::uint64_t pose_hits = 0, pose_misses = 0;  ///< key frames of meshes that were kept; that were skinned
-  std::uint64_t pose_bytes = 0;                  ///< of all that are kept
-  PassStats shadow;                              ///< the shadow map
-  PassStats main;                                ///< the picture
-  PassStats environment;                         ///< what of these two is the environment
-  std::uint64_t gpu_mesh_bytes = 0;              ///< vertices and indices of all meshes of people
-  std::uint64_t environment_bytes = 0;           ///< vertices and indices of the environment
-  double frame_ms = 0.0;                         ///< from call to finished picture, AOVs left out
-  double cpu_ms = 0.0;                           ///< of that, before the device was given its work
+  std::uint32_t characters_drawn = 0;     ///< people whose bounds touch the picture
+  std::uint32_t characters_posed = 0;     ///< people whose poses this view needed first at its time
+  std::uint32_t characters_computed = 0;  ///< of those drawn: by the compute rasteriser
+  std::uint64_t triangles_computed = 0;   ///< of the picture's triangles, likewise
+  PoseStats poses;
+  PassStats shadow;                     ///< the shadow map
+  PassStats main;                       ///< the picture
+  PassStats environment;                ///< what of these two is the environment
+  std::uint64_t gpu_mesh_bytes = 0;     ///< vertices and indices of all meshes of people
+  std::uint64_t environment_bytes = 0;  ///< vertices and indices of the environment
+  double frame_ms = 0.0;                ///< from call to finished picture, AOVs left out
+  double cpu_ms = 0.0;                  ///< of that, before the device was given its work
 
   std::uint64_t drawCalls() const { return shadow.draw_calls + main.draw_calls; }
   std::uint64_t triangles() const { return shadow.triangles + main.triangles; }

@@ -20,7 +20,7 @@ RasterPlan::RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<Show
   for (const std::vector<ShownItem>& items_of_one : shown_) {
     if (items_of_one.empty()) continue;
     const ShownItem& last = items_of_one.back();
-    most_faces = std::max(most_faces, last.first_face + items_[last.item].triangle_count);
+    most_faces = std::max(most_faces, last.first_face + items_[last.item].work.triangle_count);
   }
   face_bits_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::bit_width(most_faces - 1)));
 }
@@ -73,24 +73,22 @@ void RasterPlan::gather(const Block& block, std::span<const PlanPerson> people, 
 void RasterPlan::addWork(std::uint32_t item, const PlanPose& pose) {
   const PlanItem& from = items_[item];
   const std::uint32_t people = std::exchange(item_count_[item], 0u);
-  work_.push_back({.first_index = from.first_index,
-                   .triangle_count = from.triangle_count,
-                   .pose = pose.first_vertex,
-                   .first_entry = item_first_[item],
-                   .entry_count = people,
-                   .flags = from.is_double_sided ? ENSEMBLE_WORK_DOUBLE_SIDED : 0u});
-  const std::uint32_t group_count = (from.triangle_count + triangles_per_group_ - 1) / triangles_per_group_;
-  work_batch_.push_back({from.buffers, pose.buffer, 0, group_count});
-  triangle_count_ += std::uint64_t{people} * from.triangle_count;
+  GpuRasterWork& work = work_.emplace_back(from.work);
+  work.pose = pose.first_vertex;
+  work.first_entry = item_first_[item];
+  work.entry_count = people;
+  const std::uint32_t group_count = (work.triangle_count + triangles_per_group_ - 1) / triangles_per_group_;
+  work_batch_.push_back({from.state, pose.buffer, 0, group_count});
+  triangle_count_ += std::uint64_t{people} * work.triangle_count;
 }
 
 void RasterPlan::finishWork() {
   batches_.clear();
   const auto batch_of = [&](const PlanBatch& own) -> PlanBatch& {
     for (PlanBatch& batch : batches_) {
-      if (batch.buffers == own.buffers && batch.pose_buffer == own.pose_buffer) return batch;
+      if (batch.state == own.state && batch.pose_buffer == own.pose_buffer) return batch;
     }
-    return batches_.emplace_back(PlanBatch{own.buffers, own.pose_buffer, 0, 0});
+    return batches_.emplace_back(PlanBatch{own.state, own.pose_buffer, 0, 0});
   };
   for (const PlanBatch& own : work_batch_) batch_of(own).group_count += own.group_count;
   std::uint32_t first = 0;

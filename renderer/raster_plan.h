@@ -13,9 +13,9 @@ namespace ensemble {
 /// A sub-mesh as the plan sees it.
 struct PlanItem {
   std::uint32_t mesh = 0;
-  std::uint32_t first_index = 0, triangle_count = 0;
-  std::uint32_t buffers = 0;  ///< which buffers of indices and vertices it is in
-  bool is_double_sided = false;
+  std::uint32_t state = 0;  ///< what is bound to draw it: a number of the caller's
+  /// What follows from the item: indices and triangles, and all that lets triangles be discarded.
+  GpuRasterWork work{};
 };
 
 /// An item that a combination shows, and the number of its first face in who wears it.
@@ -29,9 +29,9 @@ struct PlanPerson {
   std::uint32_t key = 0;  ///< of all wardrobes' keys: who have the same are in the same pose
 };
 
-/// Groups that are drawn with the same buffers bound.
+/// Groups that are drawn with the same things bound.
 struct PlanBatch {
-  std::uint32_t buffers = 0, pose_buffer = 0;
+  std::uint32_t state = 0, pose_buffer = 0;
   std::uint32_t first_group = 0, group_count = 0;
 };
 
@@ -42,7 +42,8 @@ struct PlanPose {
 
 class RasterPlan {
  public:
-  /// @param shown per combination @param key_count of all wardrobes @param triangles_per_group at least 1
+  /// @param shown per combination, ascending first_face @param key_count of all wardrobes @param
+  /// triangles_per_group at least 1
   RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<ShownItem>> shown, std::uint32_t key_count,
              std::uint32_t triangles_per_group);
 

@@ -32,15 +32,13 @@ void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames&
   std::size_t computed = 0, cast = 0;
   for (const std::uint32_t p : seen) {
     const float size = set_key(p);
-    is_computed_[p] = computes && keys_[p] != kExact && people.can_be_computed[p] != 0 &&
-                      (!is_auto || size <= kTallest) &&
+    is_computed_[p] = computes && keys_[p] != kExact && (!is_auto || size <= kTallest) &&
                       fitsCamera(view, people.bounds[p], people.longest_edges[p]);
     computed += is_computed_[p];
   }
   for (const std::uint32_t p : casters) {
     set_key(p);
-    casts_computed_[p] = computes && keys_[p] != kExact && people.can_be_computed[p] != 0 &&
-                         fitsSun(fit, people.longest_edges[p]);
+    casts_computed_[p] = computes && keys_[p] != kExact && fitsSun(fit, people.longest_edges[p]);
     cast += casts_computed_[p];
   }
   if (!is_auto) return;

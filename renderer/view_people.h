@@ -19,7 +19,6 @@ struct PeopleAtTime {
   std::span<const Sphere> bounds;
   std::span<const float> heights;        ///< metres, standing, scale included
   std::span<const float> longest_edges;  ///< metres, of their clothes and bodies, scale included
-  std::span<const std::uint8_t> can_be_computed;
 };
 
 class ViewPeople {

@@ -15,6 +15,8 @@
 
 layout(local_size_x_id = ENSEMBLE_CONSTANT_LANES) in;  // one subgroup
 layout(constant_id = ENSEMBLE_CONSTANT_TO_SUN) const bool kToSun = false;
+layout(constant_id = ENSEMBLE_CONSTANT_CUT_OUT) const bool kCutOut = false;
+layout(constant_id = ENSEMBLE_CONSTANT_HIDE_FACES) const bool kHideFaces = false;
 
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ENTRIES, std430) readonly buffer Entries {
   uint entries[];  // id of the person's first face of the item
@@ -25,6 +27,20 @@ layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_WORK, std430
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_GROUPS, std430) readonly buffer Groups {
   GpuRasterGroup groups[];
 };
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_VERTICES) uniform usamplerBuffer vertices;
+layout(set = ENSEMBLE_SET_ASSETS, binding = ENSEMBLE_BINDING_MATERIALS, std430) readonly buffer Materials {
+  GpuMaterial materials[];
+};
+layout(set = ENSEMBLE_SET_ASSETS, binding = ENSEMBLE_BINDING_HIDDEN_FIRST, std430) readonly buffer HiddenFirst {
+  uint hidden_first[];
+};
+layout(set = ENSEMBLE_SET_ASSETS, binding = ENSEMBLE_BINDING_HIDDEN_WORDS, std430) readonly buffer HiddenWords {
+  uint hidden_words[];
+};
+layout(set = ENSEMBLE_SET_ASSETS, binding = ENSEMBLE_BINDING_SOURCE_FACES, std430) readonly buffer SourceFaces {
+  uint source_faces[];
+};
+layout(set = ENSEMBLE_SET_TEXTURE, binding = 0) uniform sampler2DArray base_color_textures;
 // One of the two: to the camera depth and id, to the sun depth alone.
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer Visible { uint64_t visible[]; };
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer SunDepth { uint sun_depth[]; };
@@ -37,12 +53,19 @@ const int kReach = kSamples == 1 ? 0 : 96;
 struct Screen {
   ivec2 at;  // sub-pixels from the centre of pixel (0, 0)
   float depth;
+  vec2 uv;  // for cut-outs
 };
 
-Screen toScreen(vec3 position, vec4 row[3]) {
+// Of the material that a group's triangles are cut out by.
+struct CutOut {
+  float alpha, cutoff, layer;
+};
+
+Screen toScreen(vec3 position, vec2 uv, vec4 row[3]) {
   vec4 p = vec4(position, 1.0);
   vec3 c = vec3(dot(row[0], p), dot(row[1], p), dot(row[2], p));
   Screen s;
+  s.uv = uv;
   if (kToSun) {
     s.at = ivec2(roundEven(c.xy));
     s.depth = c.z;
@@ -63,9 +86,24 @@ void keep(int number, float depth, uint id) {
   }
 }
 
+// Texture coordinates where the edge functions of b and c are these. To the camera depth is near / w.
+vec2 uvAt(Screen a, Screen b, Screen c, float per_area, vec2 e) {
+  vec3 share = vec3(0.0, e * per_area);
+  share.x = 1.0 - share.y - share.z;
+  if (!kToSun) share *= vec3(a.depth, b.depth, c.depth);
+  return (share.x * a.uv + share.y * b.uv + share.z * c.uv) / (share.x + share.y + share.z);
+}
+
+// Whether a mask cuts out a pixel, decided at its centre as in a graphics pipeline.
+bool isCutOut(CutOut mask, Screen a, Screen b, Screen c, float per_area, ivec3 e, ivec3 right, ivec3 down) {
+  vec2 uv = uvAt(a, b, c, per_area, vec2(e.yz));
+  vec2 uv_right = uvAt(a, b, c, per_area, vec2(e.yz + right.yz)) - uv, uv_down = uvAt(a, b, c, per_area, vec2(e.yz + down.yz)) - uv;
+  return mask.alpha * textureGrad(base_color_textures, vec3(uv, mask.layer), uv_right, uv_down).a < mask.cutoff;
+}
+
 // Fixed-point edge functions, top-left rule. Extents of a triangle are below 2^15 sub-pixels: whoever has larger
 // ones is drawn by the graphics pipeline.
-void rasterise(Screen a, Screen b, Screen c, bool double_sided, uint id, bool is_there) {
+void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uint id, bool is_there) {
   ivec2 ab = b.at - a.at, ac = c.at - a.at;
   int area = ac.x * ab.y - ac.y * ab.x;
   if (double_sided && area < 0) {
@@ -100,12 +138,13 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, uint id, bool is
     ivec3 next_row = down - columns * right;
     int pixel = low.y * int(width) + low.x, last = high.y * int(width) + high.x, next_pixel = int(width) - columns;
     [[dont_unroll]] for (;;) {
+      bool is_cut = kCutOut && isCutOut(mask, a, b, c, per_area, e, right, down);
       if (kSamples == 1) {
-        if ((e.x | e.y | e.z) >= 0) keep(pixel, nearest + by_b * float(e.y) + by_c * float(e.z), id);
+        if ((e.x | e.y | e.z) >= 0 && !is_cut) keep(pixel, nearest + by_b * float(e.y) + by_c * float(e.z), id);
       } else {
         [[unroll]] for (int i = 0; i < 4; ++i) {
           ivec3 s = e + by_x * kPlaces[i].x + by_y * kPlaces[i].y;
-          if ((s.x | s.y | s.z) >= 0) keep(4 * pixel + i, nearest + by_b * float(s.y) + by_c * float(s.z), id);
+          if ((s.x | s.y | s.z) >= 0 && !is_cut) keep(4 * pixel + i, nearest + by_b * float(s.y) + by_c * float(s.z), id);
         }
       }
       bool wraps = x == columns;
@@ -117,35 +156,58 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, uint id, bool is
   }
 }
 
+CutOut cutOutOf(uint number) {
+  CutOut mask = CutOut(1.0, 0.0, 0.0);
+  if (kCutOut) {
+    GpuMaterial material = materials[number];
+    mask = CutOut(material.base_color.a, material.alpha_cutoff, float(material.texture_layer));
+  }
+  return mask;
+}
+
+vec2 uvOf(uint vertex) {
+  return kCutOut ? uintBitsToFloat(texelFetch(vertices, int(vertex * 5u + 2u)).xy) : vec2(0.0);
+}
+
+// Whether a face is hidden under what somebody wears. @param first_word of the person's combination
+bool isHidden(uint first_word, uint face) {
+  return kHideFaces && (hidden_words[first_word + (face >> 5)] & (1u << (face & 31u))) != 0u;
+}
+
 void main() {
   uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
   if (number >= group_count) return;
   GpuRasterGroup group = groups[first_group + number];
   GpuRasterWork work = all_work[group.work];
   const uint lanes = gl_WorkGroupSize.x, lane = gl_LocalInvocationID.x;
-  const uint run = lanes * ENSEMBLE_RASTER_RUN;
-  uint triangle_end = min(group.first_triangle + run, work.triangle_count);
-  bool double_sided = (work.flags & ENSEMBLE_WORK_DOUBLE_SIDED) != 0u;
+  uint triangle_end = min(group.first_triangle + lanes * ENSEMBLE_RASTER_RUN, work.triangle_count);
+  bool double_sided = work.is_double_sided != 0u;
+  CutOut mask = cutOutOf(work.material);
 
   uint first_entry = 0u;
   [[dont_unroll]] for (;;) {
     uint entry = entries[work.first_entry + min(first_entry + lane, work.entry_count - 1u)];
-    int person = int(entry >> face_bits) * ENSEMBLE_PERSON_TEXELS;
+    int rank = int(entry >> face_bits), person = rank * ENSEMBLE_PERSON_TEXELS;
     vec4 rows[3] = vec4[3](texelFetch(people, person), texelFetch(people, person + 1), texelFetch(people, person + 2));
+    uint first_word = kHideFaces ? hidden_first[texelFetch(who, rank).x] : 0u;
     uint people_count = min(work.entry_count - first_entry, lanes);
     uint triangle = group.first_triangle;
     [[dont_unroll]] for (;;) {
       uint mine = min(triangle + lane, triangle_end - 1u);
       int corner = int(work.first_index + 3u * mine);
-      int pose = int(work.pose);
-      vec3 p = keptPosition(texelFetch(poses, pose + int(texelFetch(indices, corner).x)).xy);
-      vec3 q = keptPosition(texelFetch(poses, pose + int(texelFetch(indices, corner + 1).x)).xy);
-      vec3 r = keptPosition(texelFetch(poses, pose + int(texelFetch(indices, corner + 2).x)).xy);
+      uvec3 index = uvec3(texelFetch(indices, corner).x, texelFetch(indices, corner + 1).x, texelFetch(indices, corner + 2).x);
+      vec3 p = keptPosition(texelFetch(poses, int(work.pose + index.x)).xy);
+      vec3 q = keptPosition(texelFetch(poses, int(work.pose + index.y)).xy);
+      vec3 r = keptPosition(texelFetch(poses, int(work.pose + index.z)).xy);
+      vec2 uv_p = uvOf(work.first_vertex + index.x), uv_q = uvOf(work.first_vertex + index.y),
+           uv_r = uvOf(work.first_vertex + index.z);
+      uint face = kHideFaces ? source_faces[work.first_face + mine] : 0u;
       uint j = 0u;
       [[dont_unroll]] for (;;) {
         vec4 row[3] = vec4[3](subgroupShuffle(rows[0], j), subgroupShuffle(rows[1], j), subgroupShuffle(rows[2], j));
-        rasterise(toScreen(p, row), toScreen(q, row), toScreen(r, row), double_sided, subgroupShuffle(entry, j) + mine,
-                  triangle + lane < triangle_end);
+        bool is_there = triangle + lane < triangle_end && !isHidden(subgroupShuffle(first_word, j), face);
+        rasterise(toScreen(p, uv_p, row), toScreen(q, uv_q, row), toScreen(r, uv_r, row), double_sided, mask,
+                  subgroupShuffle(entry, j) + mine, is_there);
         if (++j >= people_count) break;
       }
       triangle += lanes;

@@ -71,8 +71,6 @@
 // Texels of an item in the table of items.
 #define ENSEMBLE_RASTER_ITEM_TEXELS 3
 
-#define ENSEMBLE_WORK_DOUBLE_SIDED 1u
-
 #ifdef __cplusplus
 namespace ensemble {
 #endif
@@ -112,7 +110,11 @@ struct GpuRasterWork {
   uint pose;  ///< first vertex in its buffer
   uint first_entry;
   uint entry_count;
-  uint flags;
+  uint is_double_sided;
+  // For what discards: hidden faces and cut-outs.
+  uint first_face;    ///< into the source faces
+  uint first_vertex;  ///< of the mesh, in its buffer
+  uint material;
 };
 
 /// A run of triangles of a work item: what one group draws.
@@ -152,7 +154,7 @@ struct GpuRasterBin {
 static_assert(sizeof(GpuRasterPerson) == 96 && sizeof(GpuRasterWho) == 16 && sizeof(GpuRasterItem) == 48);
 static_assert(sizeof(GpuRasterPerson) == 16 * ENSEMBLE_PERSON_TEXELS);
 static_assert(sizeof(GpuRasterItem) == 16 * ENSEMBLE_RASTER_ITEM_TEXELS);
-static_assert(sizeof(GpuRasterWork) == 24 && sizeof(GpuRasterGroup) == 8);
+static_assert(sizeof(GpuRasterWork) == 36 && sizeof(GpuRasterGroup) == 8);
 static_assert(sizeof(GpuSkinJob) == 32 && offsetof(GpuSkinJob, first_vertex) == 16);
 static_assert(sizeof(GpuRasterBin) == 32 && offsetof(GpuRasterBin, groups_x) == 16);
 }  // namespace ensemble

@@ -148,13 +148,13 @@ TEST(SceneErrors, WhatMustBeThere) {
             "input: scenes/a.yaml: 2:11: wardrobe is a list; give a wardrobe folder, or a map of them");
   EXPECT_EQ(errorOf("just text"),
             "input: scenes/a.yaml: 1:1: the file is 'just text'; give a map of the keys version, wardrobe, "
-            "technique, output, environment, crowd, people, camera, light, ground");
+            "technique, output, raster, poses, environment, crowd, people, camera, light, ground");
 }
 
 TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(errorAfterHead("outptu: {}\n"),
             "3:1: unknown key 'outptu'; write 'output' (known: version, wardrobe, technique, output, "
-            "environment, crowd, people, camera, light, ground)");
+            "raster, poses, environment, crowd, people, camera, light, ground)");
   EXPECT_EQ(errorAfterHead("output:\n  widht: 3\n"),
             "4:3: unknown key 'widht' in output; write 'width' (known: width, height, samples, frames, fps, "
             "background)");
@@ -394,7 +394,7 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
   EXPECT_EQ(scene.camera.keys.size(), 2u);
   int key_count = 0;
   for (const std::string map :
-       {"", "output", "crowd", "crowd.placement", "crowd.placement.paths.0",
+       {"", "output", "poses", "crowd", "crowd.placement", "crowd.placement.paths.0",
         "crowd.placement.paths.0.stops.0", "people.0", "camera", "camera.keys.0", "light"}) {
     const std::vector<std::string> keys = knownKeys(text, map);
     ASSERT_FALSE(keys.empty()) << map;
@@ -403,14 +403,15 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
       for (std::size_t at; (at = in_table.find(".0")) != std::string::npos;) in_table.erase(at, 2);
       ++key_count;
       EXPECT_TRUE(text.find(key + ":") != std::string::npos) << in_table << " is not in the reference scene";
-      const bool is_map = in_table == "output" || in_table == "crowd" || in_table == "people" ||
-                          in_table == "camera" || in_table == "light" || in_table == "crowd.placement";
+      const bool is_map = in_table == "output" || in_table == "poses" || in_table == "crowd" ||
+                          in_table == "people" || in_table == "camera" || in_table == "light" ||
+                          in_table == "crowd.placement";
       if (is_map) continue;
       EXPECT_TRUE(docs.find("| `" + in_table + "` |") != std::string::npos)
           << in_table << " is not in docs/scene.md";
     }
   }
-  EXPECT_EQ(key_count, 10 + 6 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
+  EXPECT_EQ(key_count, 12 + 6 + 2 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
 }
 
 TEST(ReferenceScene, ItsAlternativesAreScenesToo) {

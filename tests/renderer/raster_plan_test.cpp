@@ -12,11 +12,16 @@ namespace {
 
 /// Three items in two meshes, of which combination 0 shows 0 and 2, combination 1 shows 1 and 2.
 RasterPlan smallPlan() {
-  return RasterPlan(
-      {{.mesh = 0, .first_index = 0, .triangle_count = 10, .buffers = 0},
-       {.mesh = 0, .first_index = 30, .triangle_count = 3, .buffers = 0, .is_double_sided = true},
-       {.mesh = 1, .first_index = 39, .triangle_count = 17, .buffers = 1}},
-      {{{0, 0}, {2, 10}}, {{1, 0}, {2, 3}}}, 4, 8);
+  const auto item = [](std::uint32_t mesh, std::uint32_t state, std::uint32_t first_index,
+                       std::uint32_t triangles) {
+    GpuRasterWork work{};
+    work.first_index = first_index;
+    work.triangle_count = triangles;
+    work.material = 100 + first_index;
+    return PlanItem{mesh, state, work};
+  };
+  return RasterPlan({item(0, 0, 0, 10), item(0, 0, 30, 3), item(1, 1, 39, 17)},
+                    {{{0, 0}, {2, 10}}, {{1, 0}, {2, 3}}}, 4, 8);
 }
 
 PlanPose poseAt(std::uint32_t mesh, std::uint32_t key) { return {0, 1000 * mesh + 10 * key}; }
@@ -35,8 +40,8 @@ TEST(RasterPlan, EveryTriangleOfEveryoneOnce) {
     for (std::uint32_t g = batch.first_group; g < groups; ++g) {
       const GpuRasterGroup& group = plan.groups()[g];
       const GpuRasterWork& work = plan.work()[group.work];
-      EXPECT_EQ(batch.buffers, work.first_index == 39 ? 1u : 0u);
-      EXPECT_EQ((work.flags & ENSEMBLE_WORK_DOUBLE_SIDED) != 0, work.first_index == 30);
+      EXPECT_EQ(batch.state, work.first_index == 39 ? 1u : 0u);
+      EXPECT_EQ(work.material, 100 + work.first_index);
       const std::uint32_t end = std::min(group.first_triangle + 8, work.triangle_count);
       for (std::uint32_t t = group.first_triangle; t < end; ++t) {
         for (std::uint32_t e = 0; e < work.entry_count; ++e) {

@@ -167,7 +167,6 @@ struct Row {
   std::vector<GpuCharacter> characters;
   std::vector<Sphere> bounds;
   std::vector<float> heights, edges;
-  std::vector<std::uint8_t> can;
   std::vector<std::uint32_t> all;
   explicit Row(std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -176,11 +175,10 @@ struct Row {
       bounds.push_back({Vec3(0.0f, 1.0f, character.world_from_model[2].w), 1.0f});
       heights.push_back(1.7f);
       edges.push_back(0.05f);
-      can.push_back(1);
       all.push_back(i);
     }
   }
-  PeopleAtTime people() const { return {characters, bounds, heights, edges, can}; }
+  PeopleAtTime people() const { return {characters, bounds, heights, edges}; }
 };
 
 class ViewPeopleTest : public ::testing::Test {
@@ -224,18 +222,16 @@ TEST_F(ViewPeopleTest, AutoLeavesSmallCrowdsToThePipeline) {
   EXPECT_GT(computed(view, Row(40)), 30u);
 }
 
-TEST_F(ViewPeopleTest, WhoMustNotBeComputedIsNot) {
+TEST_F(ViewPeopleTest, WhoseTrianglesGetTooLargeIsNotComputed) {
   View view = smallView();
   view.snap_below = 1000.0f;
   view.raster = RasterKind::kCompute;
   Row row(100);
-  row.can[50] = 0;
   row.edges[60] = 50.0f;
   computed(view, row);
-  EXPECT_FALSE(shown_.isComputed(50));
   EXPECT_FALSE(shown_.isComputed(60));
   EXPECT_TRUE(shown_.isComputed(70));
-  EXPECT_FALSE(shown_.castsComputed(50));
+  EXPECT_TRUE(shown_.castsComputed(70));
 }
 
 }  // namespace
