@@ -62,98 +62,19 @@ ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, con
       assets_(assets),
       options_(options),
       poses_(device, assets, state.keyFrames(), state.animationTexture(), options.pose_cache_bytes,
-             options.max_buffer_bytes) {
-  makeItems();
-  makeShown();
+             options.max_buffer_bytes),
+      items_(device, assets, poses_) {
   materials_view_ = assets.materials().makeTexelView(device, vk::Format::eR32G32B32A32Uint);
   tints_view_ = assets.tints().makeTexelView(device);
   createPipelines();
   camera_.eye = Eye::kCamera;
   sun_work_.eye = Eye::kSun;
   for (Work* work : {&camera_, &sun_work_}) {
-    work->plan =
-        std::make_unique<RasterPlan>(planItems(work->eye), work->eye == Eye::kSun ? casting_ : shown_,
-                                     static_cast<std::uint32_t>(state.keyFrames().keys.size()),
-                                     device.subgroupSize() * ENSEMBLE_RASTER_RUN);
+    work->plan = std::make_unique<RasterPlan>(items_.planItems(work->eye == Eye::kSun),
+                                              items_.shown(work->eye == Eye::kSun),
+                                              static_cast<std::uint32_t>(state.keyFrames().keys.size()),
+                                              device.subgroupSize() * ENSEMBLE_RASTER_RUN);
   }
-}
-
-namespace {
-
-/// The number of a value among those known; it becomes known.
-template <class T>
-std::uint32_t numberOf(std::vector<T>& known, const T& value) {
-  const auto found = std::find(known.begin(), known.end(), value);
-  const auto number = static_cast<std::uint32_t>(found - known.begin());
-  if (found == known.end()) known.push_back(value);
-  return number;
-}
-
-}  // namespace
-
-void ComputeRaster::makeItems() {
-  std::vector<GpuRasterItem> gpu;
-  for (const DrawItem& item : assets_.items()) {
-    const std::uint32_t pair = numberOf(pairs_, Pair{item.state.index_chunk, item.state.vertex_chunk});
-    const std::uint32_t bin = numberOf(bins_, Bin{pair, item.state.texture_set, item.state.textured});
-    gpu.push_back({.first_index = item.first_index,
-                   .first_vertex = static_cast<std::uint32_t>(item.vertex_offset),
-                   .first_pose = poses_.firstPose(item.mesh),
-                   .bin = bin,
-                   .material = item.gpu.material,
-                   .region = item.gpu.region,
-                   .first_face = item.gpu.first_face,
-                   .face_offset = item.gpu.face_offset,
-                   .unused = {}});
-  }
-  using Usage = vk::BufferUsageFlagBits;
-  items_ = gpu::uploadBuffer(device_, std::as_bytes(std::span(gpu)), Usage::eUniformTexelBuffer, "the items");
-  items_view_ = items_.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
-}
-
-std::vector<PlanItem> ComputeRaster::planItems(Eye eye) {
-  std::vector<PlanItem> items;
-  for (const DrawItem& item : assets_.items()) {
-    const std::uint32_t pair = numberOf(pairs_, Pair{item.state.index_chunk, item.state.vertex_chunk});
-    const RasterState state{.pair = pair,
-                            .cut_out = item.state.cut_out,
-                            .hides_faces = eye == Eye::kSun && item.state.hides_faces,
-                            .texture_set = item.state.cut_out ? item.state.texture_set : 0};
-    items.push_back({.mesh = item.mesh,
-                     .state = numberOf(states_, state),
-                     .work = {.first_index = item.first_index,
-                              .triangle_count = item.index_count / 3,
-                              .pose = 0,
-                              .first_entry = 0,
-                              .entry_count = 0,
-                              .is_double_sided = item.state.double_sided ? 1u : 0u,
-                              .first_face = item.gpu.first_face,
-                              .first_vertex = static_cast<std::uint32_t>(item.vertex_offset),
-                              .material = item.gpu.material}});
-  }
-  return items;
-}
-
-void ComputeRaster::makeShown() {
-  const auto combination_count = static_cast<std::uint32_t>(assets_.shown().size());
-  std::vector<std::array<std::uint32_t, 2>> table(combination_count);
-  for (std::uint32_t c = 0; c < combination_count; ++c) {
-    std::vector<ShownItem>&shown = shown_.emplace_back(), &casting = casting_.emplace_back();
-    std::uint32_t face = 0;
-    const auto first = static_cast<std::uint32_t>(table.size());
-    for (const SubMeshId id : assets_.shown()[c]) {
-      const DrawItem& item = assets_.items()[id.value];
-      if (item.index_count == 0) continue;
-      shown.push_back({id.value, face});
-      if (item.gpu.is_covered == 0) casting.push_back({id.value, face});
-      table.push_back({id.value, face});
-      face += item.index_count / 3;
-    }
-    table[c] = {first, static_cast<std::uint32_t>(shown.size())};
-  }
-  shown_buffer_ = gpu::uploadBuffer(device_, std::as_bytes(std::span(table)),
-                                    vk::BufferUsageFlagBits::eUniformTexelBuffer, "what combinations show");
-  shown_view_ = shown_buffer_.makeTexelView(device_, vk::Format::eR32G32Uint);
 }
 
 void ComputeRaster::createPipelines() {
@@ -223,7 +144,7 @@ void ComputeRaster::createPipelines() {
 }
 
 const vk::raii::Pipeline& ComputeRaster::rasterPipeline(const Target& target,
-                                                        const RasterState& state) const {
+                                                        const RasterItems::State& state) const {
   if (target.pass == Pass::kShadow) return sun_[(state.cut_out ? 1u : 0u) + (state.hides_faces ? 2u : 0u)];
   return state.cut_out ? sampled(target).cut_out_raster : sampled(target).raster;
 }
@@ -274,7 +195,7 @@ void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState&
 }
 
 std::uint32_t ComputeRaster::binCount() const {
-  return static_cast<std::uint32_t>(bins_.size() * std::max<std::size_t>(poses_.buffers().size(), 1));
+  return static_cast<std::uint32_t>(items_.bins().size() * std::max<std::size_t>(poses_.buffers().size(), 1));
 }
 
 bool ComputeRaster::fits(const TargetSize& size) const {
@@ -321,7 +242,7 @@ void ComputeRaster::prepare(const ViewTargets& targets, Target& target) {
                         vk::BufferUsageFlagBits::eIndirectBuffer,
                     gpu::Buffer::Kind::kDevice, "the rasteriser's bins");
     target.sets = gpu::DescriptorSets(device_, set_layout_, kBindings,
-                                      static_cast<std::uint32_t>(pairs_.size()) * pose_buffers);
+                                      static_cast<std::uint32_t>(items_.pairs().size()) * pose_buffers);
   } else if (target.work_number == work.number) {
     return;
   }
@@ -333,7 +254,7 @@ void ComputeRaster::prepare(const ViewTargets& targets, Target& target) {
 void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Target& target) const {
   for (std::size_t i = 0; i < target.sets.size(); ++i) {
     const vk::DescriptorSet set = target.sets[i];
-    const Pair& pair = pairs_[i % pairs_.size()];
+    const RasterItems::Pair& pair = items_.pairs()[i % items_.pairs().size()];
     const auto buffer = [&](std::uint32_t binding, const gpu::Buffer& bound) {
       gpu::writeBuffer(device_, set, binding, bound);
     };
@@ -347,10 +268,10 @@ void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Targ
     buffer(ENSEMBLE_BINDING_RASTER_GROUPS, work.groups);
     buffer(ENSEMBLE_BINDING_RASTER_TARGET, target.visible);
     texels(ENSEMBLE_BINDING_RASTER_INDICES, assets_.indexChunk(pair.index_chunk).texels);
-    texels(ENSEMBLE_BINDING_RASTER_POSES, poses_.buffers()[i / pairs_.size()].texels);
+    texels(ENSEMBLE_BINDING_RASTER_POSES, poses_.buffers()[i / items_.pairs().size()].texels);
     texels(ENSEMBLE_BINDING_RASTER_VERTICES, assets_.vertexChunk(pair.vertex_chunk).texels);
-    texels(ENSEMBLE_BINDING_RASTER_ITEMS, items_view_);
-    texels(ENSEMBLE_BINDING_RASTER_SHOWN, shown_view_);
+    texels(ENSEMBLE_BINDING_RASTER_ITEMS, items_.view());
+    texels(ENSEMBLE_BINDING_RASTER_SHOWN, items_.shownView());
     texels(ENSEMBLE_BINDING_RASTER_POSE_TABLE, poses_.table());
     texels(ENSEMBLE_BINDING_RASTER_MATERIALS, materials_view_);
     texels(ENSEMBLE_BINDING_RASTER_TINTS, tints_view_);
@@ -372,7 +293,7 @@ ComputeRaster::Push ComputeRaster::pushFor(const Target& target, float near_plan
           .width = target.width,
           .height = target.height,
           .near_plane = near_plane,
-          .bin = static_cast<std::uint32_t>(bins_.size()),
+          .bin = static_cast<std::uint32_t>(items_.bins().size()),
           .bin_count = binCount()};
 }
 
@@ -386,11 +307,11 @@ void ComputeRaster::record(const vk::raii::CommandBuffer& commands, vk::Descript
                      Access::eShaderStorageRead | Access::eShaderStorageWrite);
   Push push = pushFor(target, to_sun ? kShadowSlopeBias : near_plane);
   for (const PlanBatch& batch : workOf(eyeOf(target.pass)).plan->batches()) {
-    const RasterState& state = states_[batch.state];
+    const RasterItems::State& state = items_.states()[batch.state];
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *rasterPipeline(target, state));
     const std::array<vk::DescriptorSet, 4> sets = {
-        view_set, target.sets[batch.pose_buffer * pairs_.size() + state.pair],
-        layout_.assetSet(pairs_[state.pair].index_chunk), assets_.textures().set(state.texture_set)};
+        view_set, target.sets[batch.pose_buffer * items_.pairs().size() + state.pair],
+        layout_.assetSet(items_.pairs()[state.pair].index_chunk), assets_.textures().set(state.texture_set)};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
                                 nullptr);
     push.first_group = batch.first_group;
@@ -446,8 +367,8 @@ void ComputeRaster::recordBands(const vk::raii::CommandBuffer& commands, vk::Des
     recordList(commands, view_set, target, push);
     Push own = push;
     for (own.bin = 0; own.bin < push.bin_count; ++own.bin) {
-      const Bin& bin = bins_[own.bin % bins_.size()];
-      bind(bin, target.sets[own.bin / bins_.size() * pairs_.size() + bin.pair], own);
+      const RasterItems::Bin& bin = items_.bins()[own.bin % items_.bins().size()];
+      bind(bin, target.sets[own.bin / items_.bins().size() * items_.pairs().size() + bin.pair], own);
       commands.dispatchIndirect(target.bins.handle(),
                                 own.bin * sizeof(GpuRasterBin) + offsetof(GpuRasterBin, groups_x));
     }
@@ -465,12 +386,12 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
                       .to_access = Access::eShaderStorageWrite,
                       .from = vk::ImageLayout::eShaderReadOnlyOptimal,
                       .to = vk::ImageLayout::eGeneral});
-  const auto bind = [&](const Bin& bin, vk::DescriptorSet set, const Push& push) {
+  const auto bind = [&](const RasterItems::Bin& bin, vk::DescriptorSet set, const Push& push) {
     const Sampled& own = sampled(target);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute,
                           bin.textured ? *own.textured_color : *own.plain_color);
     const std::array<vk::DescriptorSet, 4> sets = {view_set, set,
-                                                   layout_.assetSet(pairs_[bin.pair].index_chunk),
+                                                   layout_.assetSet(items_.pairs()[bin.pair].index_chunk),
                                                    assets_.textures().set(bin.texture_set)};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
                                 nullptr);
@@ -494,10 +415,10 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
 
 void ComputeRaster::recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
                                const Target& target, float near_plane) const {
-  const auto bind = [&](const Bin& bin, vk::DescriptorSet set, const Push& push) {
+  const auto bind = [&](const RasterItems::Bin& bin, vk::DescriptorSet set, const Push& push) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *aov_);
     const std::array<vk::DescriptorSet, 4> sets = {
-        view_set, set, layout_.assetSet(pairs_[bin.pair].index_chunk), target.aov_set[0]};
+        view_set, set, layout_.assetSet(items_.pairs()[bin.pair].index_chunk), target.aov_set[0]};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *aov_pipeline_layout_, ENSEMBLE_SET_VIEW,
                                 sets, nullptr);
     commands.pushConstants<Push>(*aov_pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);

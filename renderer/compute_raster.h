@@ -16,6 +16,7 @@
 #include "renderer/crowd_layout.h"
 #include "renderer/crowd_state.h"
 #include "renderer/pose_pool.h"
+#include "renderer/raster_items.h"
 #include "renderer/raster_people.h"
 #include "renderer/raster_plan.h"
 #include "renderer/view_targets.h"
@@ -59,6 +60,9 @@ class ComputeRaster {
   ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
                 const CrowdState& state, const ComputeRasterOptions& options);
 
+  /// People whom ids can tell apart.
+  std::size_t mostPeople() const { return std::size_t{1} << (32 - camera_.plan->faceBits()); }
+
   void beginFrame() { poses_.beginFrame(); }
   /// Plans an eye's work. @param numbers of people in the crowd, ascending; they have keys
   void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
@@ -90,35 +94,12 @@ class ComputeRaster {
                   float near_plane) const;
 
  private:
-  /// Items of a bin are shaded with the same buffers and textures bound.
-  struct Bin {
-    std::uint32_t pair = 0, texture_set = 0;
-    bool textured = false;
-    auto operator<=>(const Bin&) const = default;
-  };
-  /// Chunks of indices and vertices that items are in.
-  struct Pair {
-    std::uint32_t index_chunk = 0, vertex_chunk = 0;
-    auto operator<=>(const Pair&) const = default;
-  };
-  /// What is bound to rasterise items.
-  struct RasterState {
-    std::uint32_t pair = 0;
-    bool cut_out = false;
-    bool hides_faces = false;       ///< naive: hidden faces cast no shadow
-    std::uint32_t texture_set = 0;  ///< of cut-outs, else 0
-    auto operator<=>(const RasterState&) const = default;
-  };
   struct Push;
 
   static Eye eyeOf(Pass pass) { return pass == Pass::kShadow ? Eye::kSun : Eye::kCamera; }
   Work& workOf(Eye eye) { return eye == Eye::kCamera ? camera_ : sun_work_; }
   const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_work_; }
-  void makeItems();
-  void makeShown();
-  /// The items as an eye sees them.
-  std::vector<PlanItem> planItems(Eye eye);
-  const vk::raii::Pipeline& rasterPipeline(const Target& target, const RasterState& state) const;
+  const vk::raii::Pipeline& rasterPipeline(const Target& target, const RasterItems::State& state) const;
   void createPipelines();
   void upload(Work& work, const ScreenRows& rows, const CrowdState& state,
               std::span<const std::uint32_t> numbers);
@@ -137,14 +118,8 @@ class ComputeRaster {
   const CrowdAssets& assets_;
   ComputeRasterOptions options_;
   PosePool poses_;
-  std::vector<Pair> pairs_;
-  std::vector<Bin> bins_;
-  std::vector<RasterState> states_;
-  std::vector<std::vector<ShownItem>> shown_,
-      casting_;  ///< per combination: in the picture; in the shadow map
-  gpu::Buffer items_, shown_buffer_;
-  vk::raii::BufferView items_view_ = nullptr, shown_view_ = nullptr, materials_view_ = nullptr,
-                       tints_view_ = nullptr;
+  RasterItems items_;
+  vk::raii::BufferView materials_view_ = nullptr, tints_view_ = nullptr;
   Work camera_, sun_work_;
   vk::raii::Sampler sampler_ = nullptr;
   vk::raii::DescriptorSetLayout set_layout_ = nullptr, aov_layout_ = nullptr;

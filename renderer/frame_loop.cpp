@@ -237,7 +237,8 @@ void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const Targe
                             .bounds = state_.bounds(),
                             .heights = state_.heights(),
                             .longest_edges = longest_edges_};
-  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_, mayCompute(size));
+  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_,
+                mayCompute(size) ? compute_->mostPeople() : 0);
   const auto is_computed = [&](std::uint32_t person) { return shown_.isComputed(person); };
   divide(visible_, is_computed, computed_, near_);
 }

@@ -16,13 +16,13 @@ constexpr float kTallest = 320.0f;  // pixels
 
 void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames& frames,
                         const PeopleAtTime& people, std::span<const std::uint32_t> seen,
-                        std::span<const std::uint32_t> casters, bool may_compute) {
+                        std::span<const std::uint32_t> casters, std::size_t most) {
   const std::size_t count = people.characters.size();
   keys_.assign(count, kExact);
   is_computed_.assign(count, 0);
   casts_computed_.assign(count, 0);
   const bool is_auto = view.raster == RasterKind::kAuto;
-  const bool computes = may_compute && view.raster != RasterKind::kPipeline;
+  const bool computes = view.raster != RasterKind::kPipeline;
   const auto set_key = [&](std::uint32_t p) {
     const vec4(&rows)[3] = people.characters[p].world_from_model;
     const float size = sizeOnScreen(view, Vec3(rows[0].w, rows[1].w, rows[2].w), people.heights[p]);
@@ -32,13 +32,14 @@ void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames&
   std::size_t computed = 0, cast = 0;
   for (const std::uint32_t p : seen) {
     const float size = set_key(p);
-    is_computed_[p] = computes && keys_[p] != kExact && (!is_auto || size <= kTallest) &&
+    is_computed_[p] = computes && computed < most && keys_[p] != kExact && (!is_auto || size <= kTallest) &&
                       fitsCamera(view, people.bounds[p], people.longest_edges[p]);
     computed += is_computed_[p];
   }
   for (const std::uint32_t p : casters) {
     set_key(p);
-    casts_computed_[p] = computes && keys_[p] != kExact && fitsSun(fit, people.longest_edges[p]);
+    casts_computed_[p] =
+        computes && cast < most && keys_[p] != kExact && fitsSun(fit, people.longest_edges[p]);
     cast += casts_computed_[p];
   }
   if (!is_auto) return;

@@ -27,9 +27,9 @@ class ViewPeople {
 
   /// Decides for the people of a view.
   /// @param seen, casters numbers, ascending: those in the whole picture, those who may cast shadows into it
-  /// @param may_compute whether the device can
+  /// @param most whom the compute rasteriser can draw at once; 0: nobody
   void choose(const View& view, const ShadowFit& fit, const KeyFrames& frames, const PeopleAtTime& people,
-              std::span<const std::uint32_t> seen, std::span<const std::uint32_t> casters, bool may_compute);
+              std::span<const std::uint32_t> seen, std::span<const std::uint32_t> casters, std::size_t most);
 
   /// The key that somebody is posed at (KeyFrames), or kExact. @pre seen or a caster
   std::uint32_t key(std::uint32_t person) const { return keys_[person]; }

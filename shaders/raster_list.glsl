@@ -9,7 +9,7 @@ void listSamples(uint pixel, uvec2 key, uint samples) {
   uint of_bin = first.w + (pose >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
   atomicAdd(bins[of_bin].count, 1u);
   pixels[atomicAdd(bins[bin_count].count, 1u)] =
-      uvec2(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item | of_bin << 20);
+      uvec2(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item | of_bin << ENSEMBLE_LISTED_ITEM_BITS);
 }
 
 // At equal depth people come before ground and environment.

@@ -11,5 +11,5 @@ void main() {
   uint number = (gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x) * ENSEMBLE_LIST_GROUP + gl_LocalInvocationID.x;
   if (number >= bins[bin_count].count) return;
   uvec2 found = pixels[number];
-  pixels[atomicAdd(bins[found.y >> 20].cursor, 1u)] = found;
+  pixels[atomicAdd(bins[found.y >> ENSEMBLE_LISTED_ITEM_BITS].cursor, 1u)] = found;
 }

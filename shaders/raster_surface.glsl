@@ -55,7 +55,7 @@ Surface surfaceAt(uvec2 listed, bool textured) {
   s.depth = uintBitsToFloat(key.y);
   uint id = ~key.x;
   s.person = texelFetch(who, int(id >> face_bits));
-  uint item = (listed.y & 0xfffffu);
+  uint item = listed.y & ((1u << ENSEMBLE_LISTED_ITEM_BITS) - 1u);
   int item_texel = int(item * ENSEMBLE_RASTER_ITEM_TEXELS);
   s.item_0 = texelFetch(items, item_texel);
   s.item_1 = texelFetch(items, item_texel + 1);

@@ -56,6 +56,8 @@
 #define ENSEMBLE_RASTER_BAND (1u << 20)
 // In a listed pixel: its number in the target, and which of its samples it is for.
 #define ENSEMBLE_LISTED_PIXEL_BITS 28
+// In a listed pixel: the item's number; above it the bin's.
+#define ENSEMBLE_LISTED_ITEM_BITS 20
 // Groups along x of dispatches that may be larger than a device's limit along one axis.
 #define ENSEMBLE_RASTER_GROUPS_X 32768
 

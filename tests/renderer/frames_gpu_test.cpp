@@ -53,6 +53,7 @@ TEST_F(GpuTest, TwoViewsInOneCallAreThoseOfTwoCalls) {
 
 TEST_F(GpuTest, ChunksOfBuffersGiveTheSamePicture) {
   Scene scene = testing::tubeScene(100);
+  scene.raster = RasterKind::kPipeline;
   scene.camera.position = Vec3(0.4f, 4.0f, 9.0f);
   View view = viewOf(scene);
   view.aovs = testing::allAovs();

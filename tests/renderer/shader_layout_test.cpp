@@ -7,13 +7,17 @@
 #include <string>
 
 #include "shaders/shared/crowd_types.h"
+#include "shaders/shared/raster_types.h"
 #include "spirv/aov.frag.h"
 #include "spirv/crowd.frag.h"
 #include "spirv/crowd.vert.h"
 #include "spirv/environment.frag.h"
 #include "spirv/environment.vert.h"
 #include "spirv/pose.comp.h"
+#include "spirv/raster.comp.h"
+#include "spirv/raster_list.comp.h"
 #include "spirv/shadow_discard.frag.h"
+#include "spirv/skin_pose.comp.h"
 
 namespace ensemble {
 namespace {
@@ -141,6 +145,25 @@ TEST(ShaderLayout, StagesAgree) {
   EXPECT_EQ(fragment.offsets.at("GpuCharacter"), pose.offsets.at("GpuCharacter"));
   EXPECT_EQ(fragment.offsets.at("GpuDraw"), aov.offsets.at("GpuDraw"));
   EXPECT_EQ(fragment.offsets.at("GpuDraw"), shadow.offsets.at("GpuDraw"));
+}
+
+TEST(ShaderLayout, WorkOfTheComputeRasteriser) {
+  const Reflection raster(kRasterComp), list(kRasterListComp), skin(kSkinPoseComp), pose(kPoseComp);
+  const auto& work = raster.offsets.at("GpuRasterWork");
+  EXPECT_EQ(work.at("triangle_count"), offsetof(GpuRasterWork, triangle_count));
+  EXPECT_EQ(work.at("entry_count"), offsetof(GpuRasterWork, entry_count));
+  EXPECT_EQ(work.at("is_double_sided"), offsetof(GpuRasterWork, is_double_sided));
+  EXPECT_EQ(work.at("material"), offsetof(GpuRasterWork, material));
+  EXPECT_EQ(raster.strides.at("GpuRasterWork"), sizeof(GpuRasterWork));
+  EXPECT_EQ(raster.strides.at("GpuRasterGroup"), sizeof(GpuRasterGroup));
+  EXPECT_EQ(list.offsets.at("GpuRasterBin").at("groups_x"), offsetof(GpuRasterBin, groups_x));
+  EXPECT_EQ(list.strides.at("GpuRasterBin"), sizeof(GpuRasterBin));
+  const auto& job = skin.offsets.at("GpuSkinJob");
+  EXPECT_EQ(job.at("first_vertex"), offsetof(GpuSkinJob, first_vertex));
+  EXPECT_EQ(job.at("first_matrix"), offsetof(GpuSkinJob, first_matrix));
+  EXPECT_EQ(skin.strides.at("GpuSkinJob"), sizeof(GpuSkinJob));
+  EXPECT_EQ(skin.strides.at("GpuSkinGroup"), sizeof(GpuSkinGroup));
+  EXPECT_EQ(pose.strides.at("GpuPoseJob"), sizeof(GpuPoseJob));
 }
 
 }  // namespace

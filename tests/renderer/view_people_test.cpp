@@ -183,8 +183,8 @@ struct Row {
 
 class ViewPeopleTest : public ::testing::Test {
  protected:
-  std::size_t computed(const View& view, const Row& row, bool may_compute = true) {
-    shown_.choose(view, fitShadowMap(view, row.bounds), frames_, row.people(), row.all, row.all, may_compute);
+  std::size_t computed(const View& view, const Row& row, std::size_t most = 1000000) {
+    shown_.choose(view, fitShadowMap(view, row.bounds), frames_, row.people(), row.all, row.all, most);
     std::size_t count = 0;
     for (const std::uint32_t p : row.all) count += shown_.isComputed(p);
     return count;
@@ -217,9 +217,10 @@ TEST_F(ViewPeopleTest, AutoLeavesSmallCrowdsToThePipeline) {
   view.snap_below = 1000.0f;
   EXPECT_EQ(computed(view, Row(40)), 0u);
   EXPECT_GT(computed(view, Row(120)), 100u);
-  EXPECT_EQ(computed(view, Row(120), false), 0u) << "a device that can't";
+  EXPECT_EQ(computed(view, Row(120), 0), 0u) << "a device that can't";
   view.raster = RasterKind::kCompute;
   EXPECT_GT(computed(view, Row(40)), 30u);
+  EXPECT_EQ(computed(view, Row(40), 20), 20u) << "no more than ids can tell apart";
 }
 
 TEST_F(ViewPeopleTest, WhoseTrianglesGetTooLargeIsNotComputed) {
