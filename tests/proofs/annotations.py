@@ -123,6 +123,7 @@ def worstSlide(frames, joints):
 def proveFeet(options, name, wardrobe, work):
     """Three people on a closed path with turns and stops, half a minute."""
     scene = {"version": 1, "wardrobe": str(wardrobe),
+             "poses": {"snap_below": 0},  # held feet are a matter of exact poses
              "output": {"width": 320, "height": 180, "samples": 1, "frames": 900 if options.full else 360, "fps": 30},
              "crowd": {"count": 3, "seed": 3, "outfits": dict.fromkeys(outfitsOf(wardrobe), 1),
                        "placement": {"kind": "paths", "spacing": 2, "paths": [

@@ -91,6 +91,7 @@ TEST_F(TilesTest, AreMadeByThemselvesOfALargePicture) {
 TEST_F(TilesTest, HaveTheirDrawsCounted) {
   Scene scene = crowdedScene();
   scene.crowd.outfits = {{"tunic", 1.0f, {}}};  // So that people have the same triangles.
+  scene.raster = RasterKind::kPipeline;
   const View view = fullView(scene);
   const auto renderer = makeRenderer(scene);
   const FrameStats whole = draw(*renderer, view).stats;
