@@ -29,7 +29,8 @@ HIDDEN = {
     r"(yaml-cpp/)": ["core", "assetpipe", "tests"],
     r"(openssl/)": ["core/hash.cpp"],
     r"lib(av|sw)[a-z]+/": ["renderer/video_writer.cpp", "tests/renderer"],
-    r"(CLI/)": ["cli", "tests/cli"],
+    r"(CLI/)": ["cli", "tests/cli", "bench/peers"],
+    r"(Ogre|GL/)": ["bench/peers"],
 }
 
 GENERATED = ("embedded/", "spirv/")  # made by the build, found from its folder

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Usage: scripts/install_packages.sh [build|test]...
+# Usage: scripts/install_packages.sh [build|test|peers]...
 #
 # Installs the Debian 12 packages that the project needs. This is the one list of them.
 #   build  what compiles and runs `ensemble` (default)
 #   test   what the tests and proofs use beyond that
+#   peers  what bench/peers measures us against
 #
 # Asks apt for what is missing and does nothing, without network, where all is there. Runs as root
 # or through sudo, and never asks a question but sudo's own for a password.
@@ -26,6 +27,10 @@ test_packages=(
   libgtest-dev libgmock-dev vulkan-validationlayers clang-format blender python3-numpy
   nodejs npm
 )
+# OGRE, an X server without a screen, and a browser with three.js, which comes through npm.
+peers_packages=(
+  libogre-1.12-dev libopengl-dev libgl-dev xvfb xauth chromium nodejs npm python3-numpy python3-pil libmeshoptimizer-dev
+)
 
 case "${1:-}" in -h | --help) help && exit 0 ;; esac
 wanted=()
@@ -34,7 +39,8 @@ for set_name in "$@"; do
   case "$set_name" in
     build) wanted+=("${build_packages[@]}") ;;
     test) wanted+=("${test_packages[@]}") ;;
-    *) usageError "there is no set of packages '$set_name', only build and test" ;;
+    peers) wanted+=("${peers_packages[@]}") ;;
+    *) usageError "there is no set of packages '$set_name', only build, test and peers" ;;
   esac
 done
 
