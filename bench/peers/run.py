@@ -28,10 +28,10 @@ POSES = ("keys", "interpolated")
 ORDERS = ("exported", "optimised")
 # Our rows: a label, and what is set in the scene. What the program has no key for is skipped with a message.
 OURS = {
-    "ours": {},
-    "ours, pipeline": {"raster": "pipeline"},
-    "ours, compute": {"raster": "compute"},
+    "ours, pipeline": {"raster": "pipeline", "poses": "{snap_below: 0}"},
+    "ours, compute": {"raster": "compute", "poses": "{snap_below: 1e6}"},
 }
+KEYS_ONLY = {"ours, compute"}  # whom the compute rasteriser draws, it draws at key frames
 # The peers that draw in a browser: a label, and three_crowd.py's driver.
 BROWSERS = {"three.js, llvmpipe": "llvmpipe", "three.js, SwiftShader": "swiftshader"}
 XVFB = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
@@ -165,7 +165,7 @@ class Peers:
 
 
 def choose_rows(peers, words):
-    rows = [Row(label, poses) for label in OURS for poses in POSES]
+    rows = [Row(label, poses) for label in OURS for poses in POSES if poses == "keys" or label not in KEYS_ONLY]
     rows += [Row(label, poses, order) for label in ("OGRE", *BROWSERS) for order in ORDERS for poses in POSES]
     rows = [row for row in rows if not words or any(word in row.name() for word in words)]
     if any(row.label in BROWSERS for row in rows):

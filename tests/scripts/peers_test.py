@@ -170,7 +170,7 @@ class ReportTest(InFolder):
 class SkipTest(InFolder):
     def testWhatIsMissingIsAReason(self):
         ensemble = self.folder / "ensemble"
-        ensemble.write_text("#!/bin/sh\necho 'version: 1'\necho 'raster: auto'\n")
+        ensemble.write_text("#!/bin/sh\necho 'version: 1'\necho 'raster: auto'\necho 'poses:'\n")
         ensemble.chmod(0o755)
         peers = peers_run.Peers(types.SimpleNamespace(out=self.folder, ensemble=ensemble, ogre=self.folder / "none"))
         self.assertIsNone(peers.why_not(peers_run.Row("ours, compute", "keys")))
