@@ -8,6 +8,7 @@
 
 #include "assetpipe/pipeline.h"
 #include "renderer/renderer.h"
+#include "tests/support/picture_difference.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ensemble {
@@ -80,17 +81,6 @@ std::size_t countCovered(const Image8& picture) {
   return count;
 }
 
-std::size_t countDifferences(const Image8& a, const Image8& b) {
-  constexpr int kTold = 8;  // of 255: what is called different
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
-    int most = 0;
-    for (std::size_t k = i; k < i + 3; ++k) most = std::max(most, std::abs(a.rgba[k] - b.rgba[k]));
-    count += most > kTold;
-  }
-  return count;
-}
-
 /// Pixels inside of a person, with all their neighbours, at which the other picture shows somebody else, or
 /// what lies behind.
 std::size_t countHoles(const Picture& from, const Picture& other) {
@@ -119,7 +109,7 @@ TEST_F(RasterPictures, AreTheSameWithoutHoles) {
   for (const Shot& shot : kShots) {
     const Picture pipeline = render(shot, "pipeline"), compute = render(shot, "compute");
     const std::size_t people = countCovered(render(shot, "pipeline", "transparent").color);
-    const std::size_t differing = countDifferences(pipeline.color, compute.color);
+    const std::size_t differing = testing::countDifferences(pipeline.color, compute.color);
     std::printf("%s: %u of %u people in compute, %zu of %zu pixels differ (%.3f %%)\n", shot.name,
                 compute.stats.characters_computed, compute.stats.characters_drawn, differing, people,
                 100.0 * static_cast<double>(differing) / static_cast<double>(people));

@@ -1,10 +1,12 @@
 // The compute rasteriser against the graphics pipeline, and what must not change a picture.
 #include "core/input_error.h"
 #include "tests/renderer/gpu_fixture.h"
+#include "tests/support/picture_difference.h"
 
 namespace ensemble {
 namespace {
 
+using testing::countDifferences;
 using testing::GpuTest;
 using ::testing::HasSubstr;
 
@@ -26,16 +28,6 @@ class ComputeRasterTest : public GpuTest {
     View view = viewOf(scene);
     view.aovs = testing::allAovs();
     return view;
-  }
-  /// Pixels of which a channel differs by more than 8 of 255.
-  static std::size_t countDifferences(const Image8& a, const Image8& b) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
-      bool differs = false;
-      for (std::size_t k = i; k < i + 4; ++k) differs = differs || std::abs(a.rgba[k] - b.rgba[k]) > 8;
-      count += differs;
-    }
-    return count;
   }
 };
 
