@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/input_error.h"
 #include "renderer/crowd_pipeline.h"
 #include "spirv/raster.comp.h"
 #include "spirv/raster_aov.comp.h"
@@ -166,8 +167,17 @@ void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState&
   using Usage = vk::BufferUsageFlagBits;
   const auto grow = [&](gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {
     if (buffer && bytes <= buffer.size()) return false;
+    const std::uint64_t most = device_.limits().maxStorageBufferRange;
+    if (bytes > most) {
+      throw SystemError(
+          {.file = {},
+           .where = "Vulkan device " + device_.name(),
+           .what = fmt::format("the work of the compute rasteriser needs {}, one buffer holds {}",
+                               gpu::describeBytes(bytes), gpu::describeBytes(most)),
+           .mend = "use fewer people, or set raster to pipeline"});
+    }
     ++work.number;
-    buffer = gpu::Buffer(device_, bytes + bytes / 2, usage, gpu::Buffer::Kind::kUpload,
+    buffer = gpu::Buffer(device_, std::min(bytes + bytes / 2, most), usage, gpu::Buffer::Kind::kUpload,
                          "the work of the rasteriser");
     return true;
   };

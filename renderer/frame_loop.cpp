@@ -261,10 +261,6 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
              .computed_shadow = {},
              .computed_aovs = {}});
     slot->post_set = post_pass_.makeSet(device_, slot->targets);
-    if (mayCompute(size)) {
-      slot->computed = compute_->makeTarget(ComputeRaster::Pass::kPicture, slot->targets);
-      slot->computed_shadow = compute_->makeTarget(ComputeRaster::Pass::kShadow, slot->targets);
-    }
     gpu::writeBuffer(device_, slot->view_set[0], ENSEMBLE_BINDING_VIEW, slot->view_buffer,
                      vk::DescriptorType::eUniformBuffer);
     gpu::writeImage(device_, slot->view_set[0], ENSEMBLE_BINDING_SHADOW_MAP, slot->targets.shadow_map,
@@ -277,8 +273,6 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   if (!view.aovs.empty()) {
     if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
     if (environment_pass_) environment_pass_->prepareAovs();
-    if (mayCompute((*found)->targets.size) && (*found)->computed_aovs.width == 0)
-      (*found)->computed_aovs = compute_->makeTarget(ComputeRaster::Pass::kAovs, (*found)->targets);
   }
   if (view.coverage && !coverage_pass_)
     coverage_pass_ = std::make_unique<CoveragePass>(device_, layout_, assets_);
@@ -310,9 +304,14 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
 
 void FrameLoop::prepareCompute(const View& view, Slot& slot) {
   using Eye = ComputeRaster::Eye;
-  if (computes(Eye::kCamera)) compute_->prepare(slot.targets, slot.computed);
-  if (computes(Eye::kCamera) && !view.aovs.empty()) compute_->prepare(slot.targets, slot.computed_aovs);
-  if (computes(Eye::kSun)) compute_->prepare(slot.targets, slot.computed_shadow);
+  using Drawn = ComputeRaster::Pass;
+  const auto prepare = [&](Drawn pass, ComputeRaster::Target& target) {
+    if (target.width == 0) target = compute_->makeTarget(pass, slot.targets);
+    compute_->prepare(slot.targets, target);
+  };
+  if (computes(Eye::kCamera)) prepare(Drawn::kPicture, slot.computed);
+  if (computes(Eye::kCamera) && !view.aovs.empty()) prepare(Drawn::kAovs, slot.computed_aovs);
+  if (computes(Eye::kSun)) prepare(Drawn::kShadow, slot.computed_shadow);
 }
 
 void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {

@@ -44,7 +44,7 @@ class FrameLoop {
     ViewTargets targets;
     gpu::Buffer view_buffer;
     gpu::DescriptorSets view_set, post_set;
-    ComputeRaster::Target computed, computed_shadow, computed_aovs;
+    ComputeRaster::Target computed, computed_shadow, computed_aovs;  // made when first needed
   };
   enum Pass : std::uint32_t { kShadow, kMain, kEnvironmentShadow, kEnvironmentMain, kPassCount };
 

@@ -22,8 +22,9 @@ struct PoseStats {
 };
 
 struct FrameStats {
-  std::uint32_t characters_drawn = 0;     ///< people whose bounds touch the picture
-  std::uint32_t characters_posed = 0;     ///< people whose poses this view needed first at its time
+  std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
+  std::uint32_t characters_posed =
+      0;  ///< of those whom the pipeline draws: whose poses this view needed first
   std::uint32_t characters_computed = 0;  ///< of those drawn: by the compute rasteriser
   std::uint64_t triangles_computed = 0;   ///< of the picture's triangles, likewise
   PoseStats poses;

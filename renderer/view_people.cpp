@@ -7,8 +7,8 @@
 namespace ensemble {
 namespace {
 
-// `auto`: below so many people the passes over the picture cost more than the graphics pipeline does, and
-// people taller than that have triangles that it draws as well.
+// `auto`, chosen and not yet measured: below so many people the passes over the picture cost more than the
+// graphics pipeline does, and people taller than that have triangles that it draws as well.
 constexpr std::size_t kLeastPeople = 64;
 constexpr float kTallest = 320.0f;  // pixels
 
