@@ -40,6 +40,7 @@ Json toJson(const PassStats& pass) {
 Json toJson(const PoseStats& poses) {
   return {{"kept", poses.kept},
           {"skinned", poses.skinned},
+          {"own", poses.own},
           {"skinned_vertices", poses.skinned_vertices},
           {"kept_bytes", poses.kept_bytes}};
 }

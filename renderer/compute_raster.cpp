@@ -62,8 +62,7 @@ ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, con
       layout_(layout),
       assets_(assets),
       options_(options),
-      poses_(device, assets, state.keyFrames(), state.animationTexture(), options.pose_cache_bytes,
-             options.max_buffer_bytes),
+      poses_(device, assets, state, options.pose_cache_bytes, options.max_buffer_bytes),
       items_(device, assets, poses_) {
   materials_view_ = assets.materials().makeTexelView(device, vk::Format::eR32G32B32A32Uint);
   tints_view_ = assets.tints().makeTexelView(device);
@@ -73,7 +72,6 @@ ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, con
   for (Work* work : {&camera_, &sun_work_}) {
     work->plan = std::make_unique<RasterPlan>(items_.planItems(work->eye == Eye::kSun),
                                               items_.shown(work->eye == Eye::kSun),
-                                              static_cast<std::uint32_t>(state.keyFrames().keys.size()),
                                               device.subgroupSize() * ENSEMBLE_RASTER_RUN);
   }
 }
@@ -154,12 +152,30 @@ void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& stat
                          std::span<const std::uint32_t> numbers) {
   Work& work = workOf(eye);
   work.people.clear();
-  for (const std::uint32_t number : numbers)
-    work.people.push_back({state.combinations()[number], shown.key(number)});
+  work.own.clear();
+  const auto key_count = static_cast<std::uint32_t>(state.keyFrames().keys.size());
+  for (const std::uint32_t number : numbers) {
+    std::uint32_t key = shown.key(number);
+    if (key == ViewPeople::kExact) {
+      key = key_count + static_cast<std::uint32_t>(work.own.size());
+      work.own.push_back({state.combinations()[number], poses_.requireOwn(number)});
+    }
+    work.people.push_back({state.combinations()[number], key});
+  }
   if (work.people.empty()) return;
-  work.plan->build(work.people, work.plan->faceBits(),
-                   [&](std::uint32_t mesh, std::uint32_t key) { return poses_.require(mesh, key); });
+  planWork(work, state);
   upload(work, rows, state, numbers);
+}
+
+void ComputeRaster::planWork(Work& work, const CrowdState& state) {
+  const auto key_count = static_cast<std::uint32_t>(state.keyFrames().keys.size());
+  const auto pose_of = [&](std::uint32_t mesh, std::uint32_t key) -> PlanPose {
+    if (key < key_count) return poses_.require(mesh, key);
+    const OwnPerson& own = work.own[key - key_count];
+    return {own.pose.buffer, own.pose.first_vertex + poses_.firstOwnVertex(own.combination, mesh)};
+  };
+  work.plan->build(work.people, key_count + static_cast<std::uint32_t>(work.own.size()),
+                   work.plan->faceBits(), pose_of);
 }
 
 void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState& state,
@@ -196,11 +212,19 @@ void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState&
   const std::span<GpuRasterPerson> all_rows = work.rows.mapped<GpuRasterPerson>();
   const std::span<GpuRasterWho> all_who = work.who.mapped<GpuRasterWho>();
   const KeyFrames& frames = state.keyFrames();
+  constexpr vec4 kWorldFromWorld[3] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const GpuCharacter& character = state.characters()[numbers[i]];
-    const std::uint32_t key = work.people[i].key;
-    all_rows[i] = makeRasterPerson(rows, character, frames.boxes[frames.keys[key].clip]);
-    all_who[i] = {character.combination, key, character.tint_seed, character.number};
+    std::uint32_t pose = work.people[i].key;
+    if (pose < frames.keys.size()) {
+      const KeptBox& box = frames.boxes[frames.keys[pose].clip];
+      all_rows[i] = makeRasterPerson(rows, character.world_from_model, box);
+    } else {
+      const PlanPose& own = work.own[pose - frames.keys.size()].pose;
+      pose = ENSEMBLE_OWN_POSE | own.buffer << ENSEMBLE_POSE_OFFSET_BITS | own.first_vertex;
+      all_rows[i] = makeRasterPerson(rows, kWorldFromWorld, poses_.ownBox(numbers[i]));
+    }
+    all_who[i] = {character.combination, pose, character.tint_seed, character.number};
   }
 }
 

@@ -2,7 +2,7 @@
 // from which the pixels where somebody is in front are listed, sorted by the buffers and textures that they
 // need, and shaded. The shadow map gets its depths by the same rasteriser.
 //
-// It draws people at key frames (ViewPeople); all others the graphics pipeline does, and the two meet by
+// It draws the people that ViewPeople gives it; all others the graphics pipeline does, and the two meet by
 // depth.
 #pragma once
 
@@ -35,12 +35,19 @@ class ComputeRaster {
   /// What is drawn: the picture, AOVs (from the camera, one sample) or the shadow map.
   enum class Pass : std::uint8_t { kPicture, kAovs, kShadow };
 
+  /// Somebody with a pose of its own.
+  struct OwnPerson {
+    std::uint32_t combination = 0;
+    PlanPose pose;
+  };
+
   /// One eye's people and work, and the buffers they go through.
   struct Work {
     Eye eye = Eye::kCamera;
     std::unique_ptr<RasterPlan> plan;
-    std::vector<PlanPerson> people;
-    std::uint32_t number = 0;  ///< changes when a buffer is another one
+    std::vector<PlanPerson> people;  ///< who is between key frames has a key beyond them all, of its own
+    std::vector<OwnPerson> own;      ///< those, in this order
+    std::uint32_t number = 0;        ///< changes when a buffer is another one
     gpu::Buffer rows, who, entries, work, groups;
     vk::raii::BufferView rows_view = nullptr, who_view = nullptr;
   };
@@ -64,7 +71,8 @@ class ComputeRaster {
   std::size_t mostPeople() const { return std::size_t{1} << (32 - camera_.plan->faceBits()); }
 
   void beginFrame() { poses_.beginFrame(); }
-  /// Plans an eye's work. @param numbers of people in the crowd, ascending; they have keys
+  /// Plans an eye's work. @param numbers of people in the crowd, ascending; who is between key frames has its
+  /// palette queued
   void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
             std::span<const std::uint32_t> numbers);
   bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
@@ -101,6 +109,7 @@ class ComputeRaster {
   const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_work_; }
   const vk::raii::Pipeline& rasterPipeline(const Target& target, const RasterItems::State& state) const;
   void createPipelines();
+  void planWork(Work& work, const CrowdState& state);
   void upload(Work& work, const ScreenRows& rows, const CrowdState& state,
               std::span<const std::uint32_t> numbers);
   void writeSets(const Work& work, const ViewTargets& targets, Target& target) const;

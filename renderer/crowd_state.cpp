@@ -184,8 +184,8 @@ std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people, cons
 
 void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) {
   using Stage = vk::PipelineStageFlagBits2;
-  // The last frame's vertex shaders may still be reading what is overwritten here.
-  gpu::recordBarrier(commands, Stage::eVertexShader, {}, Stage::eComputeShader, {});
+  // The last frame's shaders may still be reading what is overwritten here.
+  gpu::recordBarrier(commands, Stage::eVertexShader | Stage::eComputeShader, {}, Stage::eComputeShader, {});
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const std::uint32_t queued = std::exchange(chunks_[i].pose_queue_length, 0u);
@@ -195,7 +195,7 @@ void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) {
     gpu::recordDispatch(commands, queued, ENSEMBLE_POSE_GROUPS_X);
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
-                     Stage::eVertexShader, vk::AccessFlagBits2::eShaderSampledRead);
+                     Stage::eVertexShader | Stage::eComputeShader, vk::AccessFlagBits2::eShaderSampledRead);
 }
 
 }  // namespace ensemble

@@ -41,6 +41,8 @@ class CrowdState {
   /// At the time set, on the host; by number.
   std::span<const GpuCharacter> characters() const { return characters_; }
   std::span<const float> heights() const { return heights_; }  ///< metres, standing, scale included
+  /// The chunk that somebody is in.
+  std::uint32_t chunkOf(std::uint32_t person) const { return chunk_of_[person]; }
   const KeyFrames& keyFrames() const { return key_frames_; }
   const gpu::Image& animationTexture() const { return texture_; }
 
@@ -50,7 +52,7 @@ class CrowdState {
   /// Queues those of `people` (numbers in the crowd) who don't have their poses yet, and says how many they
   /// were. The device must be done with the pose pass before. @param shown who is at a key frame
   std::uint32_t queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown);
-  /// Records the pose pass: fills the palettes of those queued, readable by vertex shaders
+  /// Records the pose pass: fills the palettes of those queued, readable by vertex and compute shaders
   /// afterwards, and empties the queues.
   void recordPoses(const vk::raii::CommandBuffer& commands);
 

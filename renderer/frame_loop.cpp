@@ -143,7 +143,7 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
   longest_edges_.resize(state.characterCount(), 0.0f);
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
   for (std::vector<std::uint32_t>* list :
-       {&visible_, &casters_, &near_, &computed_, &near_casters_, &computed_casters_})
+       {&visible_, &casters_, &near_, &computed_, &near_casters_, &computed_casters_, &exact_})
     list->reserve(state.characterCount());
   if (environment_) {
     environment_pass_ = std::make_unique<EnvironmentPass>(device, layout_, *environment_);
@@ -197,8 +197,8 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     slot.targets.tile = grid[i];
     buildQueues(view, slot.targets.tile);
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
-    stats.characters_posed += state_.queuePoses(near_, shown_);
-    if (is_first) stats.characters_posed += state_.queuePoses(near_casters_, shown_);
+    stats.characters_posed += queuePoses(near_, computed_);
+    if (is_first) stats.characters_posed += queuePoses(near_casters_, computed_casters_);
     prepareCompute(view, slot);
     record(view, slot, is_first);
     stats.cpu_ms += millisecondsSince(start);
@@ -300,6 +300,15 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },
                           shadow_environment_);
+}
+
+std::uint32_t FrameLoop::queuePoses(const std::vector<std::uint32_t>& drawn,
+                                    const std::vector<std::uint32_t>& computed) {
+  exact_.clear();
+  for (const std::uint32_t person : computed) {
+    if (shown_.key(person) == ViewPeople::kExact) exact_.push_back(person);
+  }
+  return state_.queuePoses(drawn, shown_) + state_.queuePoses(exact_, shown_);
 }
 
 void FrameLoop::prepareCompute(const View& view, Slot& slot) {
@@ -415,6 +424,7 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
     const PoseCacheStats& poses = compute_->poses().stats();
     stats.poses = {.kept = poses.hits,
                    .skinned = poses.misses,
+                   .own = compute_->poses().own().count(),
                    .skinned_vertices = compute_->poses().skinnedVertices(),
                    .kept_bytes = poses.kept_vertices * 2 * sizeof(std::uint32_t)};
   }

@@ -13,18 +13,19 @@ struct PassStats {
   std::optional<std::uint64_t> vertex_invocations;  ///< measured; none where the device can't
 };
 
-/// Meshes at key frames, for the compute rasteriser.
+/// Poses of the compute rasteriser.
 struct PoseStats {
-  std::uint64_t kept = 0;              ///< of those drawn: kept from an earlier frame
+  std::uint64_t kept = 0;              ///< meshes at key frames that were drawn: kept from an earlier frame
   std::uint64_t skinned = 0;           ///< the others
-  std::uint64_t skinned_vertices = 0;  ///< of these
+  std::uint64_t own = 0;               ///< people between key frames, skinned for this frame
+  std::uint64_t skinned_vertices = 0;  ///< of both
   std::uint64_t kept_bytes = 0;        ///< of all that are kept after the frame
 };
 
 struct FrameStats {
   std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
-  std::uint32_t characters_posed =
-      0;  ///< of those whom the pipeline draws: whose poses this view needed first
+  std::uint32_t characters_posed = 0;  ///< whose palettes this view needed first: all but those that compute
+                                       ///< draws at key frames
   std::uint32_t characters_computed = 0;  ///< of those drawn: by the compute rasteriser
   std::uint64_t triangles_computed = 0;   ///< of the picture's triangles, likewise
   PoseStats poses;

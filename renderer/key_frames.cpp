@@ -6,13 +6,18 @@
 
 namespace ensemble {
 
+KeptBox keptBoxAround(const Sphere& bounds) {
+  constexpr float kSteps = (1u << ENSEMBLE_POSE_POSITION_BITS) - 1u;
+  const float radius = std::max(bounds.radius, 1e-3f);
+  return {bounds.center - Vec3(radius), 2.0f * radius / kSteps};
+}
+
 std::uint32_t KeyFrames::firstOfWardrobe(std::uint32_t wardrobe) const {
   const std::uint32_t clip = clip_of_wardrobe[wardrobe];
   return clip < first_of_clip.size() ? first_of_clip[clip] : static_cast<std::uint32_t>(keys.size());
 }
 
 KeyFrames numberKeyFrames(const Animation& animation) {
-  constexpr float kSteps = (1u << ENSEMBLE_POSE_POSITION_BITS) - 1u;
   KeyFrames frames;
   frames.clips = animation.clips;
   frames.clip_of_wardrobe = animation.first_clip;
@@ -22,9 +27,7 @@ KeyFrames numberKeyFrames(const Animation& animation) {
     frames.first_of_clip.push_back(static_cast<std::uint32_t>(frames.keys.size()));
     for (std::uint32_t key = 0; key < clip.key_count; ++key)
       frames.keys.push_back({c, clip.first_matrix + key * clip.joint_count});
-    const Sphere& bounds = animation.bounds[c];
-    const float radius = std::max(bounds.radius, 1e-3f);
-    frames.boxes.push_back({bounds.center - Vec3(radius), 2.0f * radius / kSteps});
+    frames.boxes.push_back(keptBoxAround(animation.bounds[c]));
   }
   return frames;
 }

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "renderer/animation.h"
+#include "renderer/sphere.h"
 
 namespace ensemble {
 
-/// Poses at key frames hold positions as whole numbers in a cube.
+/// Poses hold positions as whole numbers in a cube.
 struct KeptBox {
   Vec3 low{0.0f};
   float step = 1.0f;  ///< metres
 };
+KeptBox keptBoxAround(const Sphere& bounds);
 
 /// A key frame of a clip.
 struct KeyFrame {

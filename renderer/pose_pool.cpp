@@ -6,6 +6,8 @@
 #include <array>
 #include <tuple>
 
+#include "core/check.h"
+#include "core/input_error.h"
 #include "spirv/skin_pose.comp.h"
 
 namespace ensemble {
@@ -13,10 +15,14 @@ namespace {
 
 constexpr std::uint64_t kVertexBytes = 8;
 constexpr std::uint64_t kMostBufferBytes = 64ull << 20;
+/// Beside the flag of own poses so many bits are left for a buffer's number.
+constexpr std::uint32_t kMostBuffers = 1u << (31 - ENSEMBLE_POSE_OFFSET_BITS);
+/// In the order of ENSEMBLE_BINDING_SKIN_...
 constexpr std::initializer_list<vk::DescriptorType> kSkinBindings = {
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-    vk::DescriptorType::eUniformTexelBuffer, vk::DescriptorType::eCombinedImageSampler,
-    vk::DescriptorType::eStorageBuffer};
+    vk::DescriptorType::eUniformTexelBuffer, vk::DescriptorType::eStorageBuffer};
+constexpr std::initializer_list<vk::DescriptorType> kMatricesBindings = {
+    vk::DescriptorType::eCombinedImageSampler, vk::DescriptorType::eUniformTexelBuffer};
 
 struct Push {
   std::uint32_t first_group, group_count;
@@ -24,99 +30,197 @@ struct Push {
 
 }  // namespace
 
-PosePool::PosePool(gpu::Device& device, const CrowdAssets& assets, const KeyFrames& frames,
-                   const gpu::Image& animation_texture, std::uint64_t budget_bytes,
-                   std::uint64_t max_buffer_bytes)
+PosePool::PosePool(gpu::Device& device, const CrowdAssets& assets, const CrowdState& state,
+                   std::uint64_t budget_bytes, std::uint64_t max_buffer_bytes)
     : device_(device),
       assets_(assets),
-      frames_(frames),
-      animation_texture_(animation_texture),
-      limits_(limitsFor(assets, frames, budget_bytes, max_buffer_bytes)),
-      cache_(limits_) {
-  std::uint32_t poses = 0;
-  for (const DrawMesh& mesh : assets.meshes()) {
-    const std::uint32_t first = frames.firstOfWardrobe(mesh.wardrobe);
-    first_pose_.push_back(poses - first);
-    poses += frames.firstOfWardrobe(mesh.wardrobe + 1) - first;
-  }
-  table_ = gpu::Buffer(device, std::uint64_t{poses} * sizeof(std::uint32_t),
-                       vk::BufferUsageFlagBits::eUniformTexelBuffer, gpu::Buffer::Kind::kUpload,
-                       "the table of poses");
-  table_view_ = table_.makeTexelView(device, vk::Format::eR32Uint);
-  createPipeline();
+      state_(state),
+      worn_(findWorn(assets)),
+      buffer_vertices_(chooseBufferVertices(max_buffer_bytes)),
+      cache_({.budget_vertices = budget_bytes / kVertexBytes, .buffer_vertices = buffer_vertices_}),
+      own_(state.characterCount(), buffer_vertices_) {
+  numberPoses();
+  createPipelines();
 }
 
-/// Buffers no larger than all poses that there can be, nor than 64 MiB.
-PoseCacheLimits PosePool::limitsFor(const CrowdAssets& assets, const KeyFrames& frames,
-                                    std::uint64_t budget_bytes, std::uint64_t max_buffer_bytes) {
+std::vector<std::vector<PosePool::WornMesh>> PosePool::findWorn(const CrowdAssets& assets) {
+  std::vector<std::vector<WornMesh>> worn;
+  for (const std::vector<SubMeshId>& shown : assets.shown()) {
+    std::vector<WornMesh>& own = worn.emplace_back();
+    std::uint32_t vertices = 0;
+    for (const SubMeshId id : shown) {
+      const std::uint32_t mesh = assets.items()[id.value].mesh;
+      const bool is_known =
+          std::any_of(own.begin(), own.end(), [&](const WornMesh& w) { return w.mesh == mesh; });
+      if (is_known || assets.items()[id.value].index_count == 0) continue;
+      own.push_back({mesh, vertices});
+      vertices += assets.meshes()[mesh].vertex_count;
+    }
+  }
+  return worn;
+}
+
+std::uint32_t PosePool::ownVertexCount(std::uint32_t combination) const {
+  const std::vector<WornMesh>& worn = worn_[combination];
+  if (worn.empty()) return 0;
+  return worn.back().first_vertex + assets_.meshes()[worn.back().mesh].vertex_count;
+}
+
+std::uint32_t PosePool::firstOwnVertex(std::uint32_t combination, std::uint32_t mesh) const {
+  for (const WornMesh& worn : worn_[combination]) {
+    if (worn.mesh == mesh) return worn.first_vertex;
+  }
+  ENSEMBLE_CHECK(false);
+  return 0;
+}
+
+/// Buffers no larger than all poses that there can be at a time, nor than 64 MiB.
+std::uint32_t PosePool::chooseBufferVertices(std::uint64_t max_buffer_bytes) const {
+  const KeyFrames& frames = state_.keyFrames();
   std::uint64_t all = 1, largest = 1;
-  for (const DrawMesh& mesh : assets.meshes()) {
+  for (const DrawMesh& mesh : assets_.meshes()) {
     const std::uint64_t keys =
         frames.firstOfWardrobe(mesh.wardrobe + 1) - frames.firstOfWardrobe(mesh.wardrobe);
     all += keys * mesh.vertex_count;
     largest = std::max<std::uint64_t>(largest, mesh.vertex_count);
   }
+  for (const std::uint32_t combination : state_.combinations()) {
+    const std::uint32_t own = ownVertexCount(combination);
+    all += own;
+    largest = std::max<std::uint64_t>(largest, own);
+  }
   const std::uint64_t most = std::min(kMostBufferBytes, max_buffer_bytes) / kVertexBytes;
-  return {.budget_vertices = budget_bytes / kVertexBytes,
-          .buffer_vertices = static_cast<std::uint32_t>(std::max(std::min(all, most), largest))};
+  return static_cast<std::uint32_t>(std::max(std::min(all, most), largest));
 }
 
-void PosePool::createPipeline() {
+void PosePool::numberPoses() {
+  const KeyFrames& frames = state_.keyFrames();
+  std::uint32_t poses = 0;
+  for (const DrawMesh& mesh : assets_.meshes()) {
+    const std::uint32_t first = frames.firstOfWardrobe(mesh.wardrobe);
+    first_pose_.push_back(poses - first);
+    poses += frames.firstOfWardrobe(mesh.wardrobe + 1) - first;
+  }
+  table_ = gpu::Buffer(device_, std::uint64_t{poses} * sizeof(std::uint32_t),
+                       vk::BufferUsageFlagBits::eUniformTexelBuffer, gpu::Buffer::Kind::kUpload,
+                       "the table of poses");
+  table_view_ = table_.makeTexelView(device_, vk::Format::eR32Uint);
+}
+
+void PosePool::createPipelines() {
   sampler_ = ENSEMBLE_VK(vk::raii::Sampler(device_.handle(), vk::SamplerCreateInfo{}));  // texelFetch only
   set_layout_ = gpu::makeSetLayout(device_, kSkinBindings, vk::ShaderStageFlagBits::eCompute);
+  matrices_layout_ = gpu::makeSetLayout(device_, kMatricesBindings, vk::ShaderStageFlagBits::eCompute);
+  const std::vector<CrowdChunk>& chunks = state_.chunks();
+  matrices_sets_ = gpu::DescriptorSets(device_, matrices_layout_, kMatricesBindings,
+                                       static_cast<std::uint32_t>(chunks.size()));
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    gpu::writeImage(device_, matrices_sets_[i], ENSEMBLE_BINDING_SKIN_ANIMATION, state_.animationTexture(),
+                    &sampler_, vk::ImageLayout::eShaderReadOnlyOptimal);
+    gpu::writeTexelBuffer(device_, matrices_sets_[i], ENSEMBLE_BINDING_SKIN_PALETTE, chunks[i].palette_view);
+  }
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(Push)};
-  layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device_.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                                              .pSetLayouts = &*set_layout_,
-                                                                              .pushConstantRangeCount = 1,
-                                                                              .pPushConstantRanges = &push}));
-  pipeline_ = gpu::makeComputePipeline(device_, layout_, kSkinPoseComp);
+  const std::array<vk::DescriptorSetLayout, 2> layouts = {*set_layout_, *matrices_layout_};
+  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
+      device_.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
+                                                     .pSetLayouts = layouts.data(),
+                                                     .pushConstantRangeCount = 1,
+                                                     .pPushConstantRanges = &push}));
+  const auto make = [&](vk::Bool32 own_poses) {
+    const vk::SpecializationMapEntry entry{ENSEMBLE_CONSTANT_OWN_POSES, 0, sizeof own_poses};
+    const vk::SpecializationInfo info{
+        .mapEntryCount = 1, .pMapEntries = &entry, .dataSize = sizeof own_poses, .pData = &own_poses};
+    return gpu::makeComputePipeline(device_, layout_, kSkinPoseComp, &info);
+  };
+  key_pipeline_ = make(false);
+  own_pipeline_ = make(true);
 }
 
 void PosePool::beginFrame() {
   cache_.beginFrame();
+  own_.beginFrame();
   skinned_vertices_ = 0;
+}
+
+std::uint32_t PosePool::numberOf(std::vector<std::uint32_t>& numbers, std::uint32_t own_number,
+                                 std::uint32_t& count) {
+  while (numbers.size() <= own_number) numbers.push_back(count++);
+  return numbers[own_number];
+}
+
+void PosePool::addJob(Job job, const DrawMesh& mesh) {
+  job.vertex_chunk = mesh.vertex_chunk;
+  job.gpu.first_vertex = mesh.first_vertex;
+  job.gpu.vertex_count = mesh.vertex_count;
+  group_count_ += (mesh.vertex_count + ENSEMBLE_SKIN_GROUP - 1) / ENSEMBLE_SKIN_GROUP;
+  skinned_vertices_ += mesh.vertex_count;
+  jobs_.push_back(job);
 }
 
 PlanPose PosePool::require(std::uint32_t mesh, std::uint32_t key) {
   const DrawMesh& from = assets_.meshes()[mesh];
   const std::uint32_t pose = first_pose_[mesh] + key;
   const KeptPose kept = cache_.require(pose, from.vertex_count);
+  const std::uint32_t buffer = numberOf(numbers_of_kept_, kept.buffer, buffer_count_);
   if (kept.is_new) {
-    const KeyFrame& frame = frames_.keys[key];
-    const KeptBox& box = frames_.boxes[frame.clip];
-    jobs_.push_back({.vertex_chunk = from.vertex_chunk,
-                     .buffer = kept.buffer,
-                     .gpu = {.box = vec4(box.low, 1.0f / box.step),
-                             .first_vertex = from.first_vertex,
-                             .vertex_count = from.vertex_count,
-                             .pose = kept.first_vertex,
-                             .first_matrix = frame.first_matrix}});
-    group_count_ += (from.vertex_count + ENSEMBLE_SKIN_GROUP - 1) / ENSEMBLE_SKIN_GROUP;
-    skinned_vertices_ += from.vertex_count;
-    table_.mapped<std::uint32_t>()[pose] = kept.buffer << ENSEMBLE_POSE_OFFSET_BITS | kept.first_vertex;
+    const KeyFrame& frame = state_.keyFrames().keys[key];
+    const KeptBox& box = state_.keyFrames().boxes[frame.clip];
+    addJob({.buffer = buffer,
+            .gpu = {.box = vec4(box.low, 1.0f / box.step),
+                    .first_vertex = 0,
+                    .vertex_count = 0,
+                    .pose = kept.first_vertex,
+                    .first_matrix = frame.first_matrix}},
+           from);
+    table_.mapped<std::uint32_t>()[pose] = buffer << ENSEMBLE_POSE_OFFSET_BITS | kept.first_vertex;
   }
-  return {kept.buffer, kept.first_vertex};
+  return {buffer, kept.first_vertex};
+}
+
+PlanPose PosePool::requireOwn(std::uint32_t person) {
+  const std::uint32_t combination = state_.combinations()[person];
+  const OwnPose own = own_.require(person, std::max(ownVertexCount(combination), 1u));
+  const std::uint32_t buffer = numberOf(numbers_of_own_, own.buffer, buffer_count_);
+  if (own.is_new) {
+    const KeptBox box = ownBox(person);
+    for (const WornMesh& worn : worn_[combination]) {
+      addJob({.is_own = true,
+              .people_chunk = state_.chunkOf(person),
+              .buffer = buffer,
+              .gpu = {.box = vec4(box.low, 1.0f / box.step),
+                      .first_vertex = 0,
+                      .vertex_count = 0,
+                      .pose = own.first_vertex + worn.first_vertex,
+                      .first_matrix = state_.characters()[person].first_joint}},
+             assets_.meshes()[worn.mesh]);
+    }
+  }
+  return {buffer, own.first_vertex};
 }
 
 bool PosePool::prepare() {
+  if (buffer_count_ > kMostBuffers) {
+    throw SystemError({.file = {},
+                       .where = "Vulkan device " + device_.name(),
+                       .what = fmt::format("the poses of all people need more than {} buffers of {}",
+                                           kMostBuffers, gpu::describeBytes(buffer_vertices_ * kVertexBytes)),
+                       .mend = "use fewer people, or set raster to pipeline"});
+  }
   const std::size_t before = buffers_.size();
   makeRoomForJobs();
-  while (buffers_.size() < cache_.bufferCount()) {
+  while (buffers_.size() < buffer_count_) {
     PoseBuffer buffer;
     using Usage = vk::BufferUsageFlagBits;
-    buffer.vertices = gpu::Buffer(device_, limits_.buffer_vertices * kVertexBytes,
+    buffer.vertices = gpu::Buffer(device_, buffer_vertices_ * kVertexBytes,
                                   Usage::eStorageBuffer | Usage::eUniformTexelBuffer,
-                                  gpu::Buffer::Kind::kDevice, "a buffer of skinned key frames");
+                                  gpu::Buffer::Kind::kDevice, "a buffer of skinned poses");
     buffer.texels = buffer.vertices.makeTexelView(device_, vk::Format::eR32G32Uint);
     buffer.skin_sets = gpu::DescriptorSets(device_, set_layout_, kSkinBindings,
                                            static_cast<std::uint32_t>(assets_.vertexChunkCount()));
     for (std::uint32_t c = 0; c < assets_.vertexChunkCount(); ++c) {
       const vk::DescriptorSet set = buffer.skin_sets[c];
       gpu::writeTexelBuffer(device_, set, ENSEMBLE_BINDING_SKIN_VERTICES, assets_.vertexChunk(c).texels);
-      gpu::writeImage(device_, set, ENSEMBLE_BINDING_SKIN_ANIMATION, animation_texture_, &sampler_,
-                      vk::ImageLayout::eShaderReadOnlyOptimal);
       gpu::writeBuffer(device_, set, ENSEMBLE_BINDING_SKIN_POSES, buffer.vertices);
       gpu::writeBuffer(device_, set, ENSEMBLE_BINDING_SKIN_JOBS, gpu_jobs_);
       gpu::writeBuffer(device_, set, ENSEMBLE_BINDING_SKIN_GROUPS, gpu_groups_);
@@ -143,34 +247,38 @@ void PosePool::makeRoomForJobs() {
 void PosePool::record(const vk::raii::CommandBuffer& commands) {
   using Stage = vk::PipelineStageFlagBits2;
   if (jobs_.empty()) return;
-  std::stable_sort(jobs_.begin(), jobs_.end(), [](const Job& a, const Job& b) {
-    return std::tie(a.buffer, a.vertex_chunk) < std::tie(b.buffer, b.vertex_chunk);
-  });
+  std::sort(jobs_.begin(), jobs_.end(), [](const Job& a, const Job& b) { return a.place() < b.place(); });
   gpu::recordBarrier(commands, Stage::eComputeShader, {}, Stage::eComputeShader, {});
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-  const std::span<GpuSkinJob> jobs = gpu_jobs_.mapped<GpuSkinJob>();
-  const std::span<GpuSkinGroup> groups = gpu_groups_.mapped<GpuSkinGroup>();
-  std::uint32_t job = 0, group = 0;
-  while (job < jobs_.size()) {
-    const Job& first = jobs_[job];
-    Push push{group, 0};
-    for (; job < jobs_.size() && jobs_[job].buffer == first.buffer &&
-           jobs_[job].vertex_chunk == first.vertex_chunk;
-         ++job) {
-      jobs[job] = jobs_[job].gpu;
-      for (std::uint32_t v = 0; v < jobs_[job].gpu.vertex_count; v += ENSEMBLE_SKIN_GROUP)
-        groups[group++] = {job, v};
-    }
-    push.group_count = group - push.first_group;
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0,
-                                buffers_[first.buffer].skin_sets[first.vertex_chunk], nullptr);
-    commands.pushConstants<Push>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-    gpu::recordDispatch(commands, push.group_count, ENSEMBLE_RASTER_GROUPS_X);
+  std::uint32_t group = 0;
+  for (std::size_t first = 0, end = 0; first < jobs_.size(); first = end) {
+    while (end < jobs_.size() && jobs_[end].place() == jobs_[first].place()) ++end;
+    recordJobs(commands, first, end, group);
   }
   jobs_.clear();
   group_count_ = 0;
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
                      Stage::eComputeShader, vk::AccessFlagBits2::eShaderSampledRead);
+}
+
+/// Jobs of one place, in one dispatch. @param group the next free; moves on
+void PosePool::recordJobs(const vk::raii::CommandBuffer& commands, std::size_t first, std::size_t end,
+                          std::uint32_t& group) {
+  const std::span<GpuSkinJob> jobs = gpu_jobs_.mapped<GpuSkinJob>();
+  const std::span<GpuSkinGroup> groups = gpu_groups_.mapped<GpuSkinGroup>();
+  Push push{group, 0};
+  for (std::size_t job = first; job < end; ++job) {
+    jobs[job] = jobs_[job].gpu;
+    for (std::uint32_t v = 0; v < jobs_[job].gpu.vertex_count; v += ENSEMBLE_SKIN_GROUP)
+      groups[group++] = {static_cast<std::uint32_t>(job), v};
+  }
+  push.group_count = group - push.first_group;
+  const Job& any = jobs_[first];
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, any.is_own ? *own_pipeline_ : *key_pipeline_);
+  const std::array<vk::DescriptorSet, 2> sets = {buffers_[any.buffer].skin_sets[any.vertex_chunk],
+                                                 matrices_sets_[any.people_chunk]};
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, nullptr);
+  commands.pushConstants<Push>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  gpu::recordDispatch(commands, push.group_count, ENSEMBLE_RASTER_GROUPS_X);
 }
 
 }  // namespace ensemble

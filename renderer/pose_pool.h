@@ -1,4 +1,5 @@
-// Skinned vertices of meshes at key frames, on the device: made when first asked for and kept (pose cache).
+// Skinned vertices on the device, for the compute rasteriser: of meshes at key frames, made when first asked
+// for and kept (pose cache), and of people between key frames, for one frame.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,8 @@
 #include <vector>
 
 #include "renderer/crowd_assets.h"
-#include "renderer/key_frames.h"
+#include "renderer/crowd_state.h"
+#include "renderer/own_poses.h"
 #include "renderer/pose_cache.h"
 #include "renderer/raster_plan.h"
 #include "renderer/vk/descriptors.h"
@@ -22,12 +24,20 @@ class PosePool {
   };
 
   /// What it refers to must outlive it. @param budget_bytes kept from frame to frame
-  PosePool(gpu::Device& device, const CrowdAssets& assets, const KeyFrames& frames,
-           const gpu::Image& animation_texture, std::uint64_t budget_bytes, std::uint64_t max_buffer_bytes);
+  PosePool(gpu::Device& device, const CrowdAssets& assets, const CrowdState& state,
+           std::uint64_t budget_bytes, std::uint64_t max_buffer_bytes);
 
   void beginFrame();
   /// Where a mesh's vertices at a key are, or will be after the next record().
   PlanPose require(std::uint32_t mesh, std::uint32_t key);
+  /// Where somebody's own vertices are, or will be: those of all meshes that it wears, one behind the other.
+  /// The device must have its palette by then, from CrowdState.
+  PlanPose requireOwn(std::uint32_t person);
+  /// Where a mesh begins among the own vertices of who wears a combination. @pre the combination shows it
+  std::uint32_t firstOwnVertex(std::uint32_t combination, std::uint32_t mesh) const;
+  /// The box, in the world, that somebody's own vertices are kept in.
+  KeptBox ownBox(std::uint32_t person) const { return keptBoxAround(state_.bounds()[person]); }
+
   /// Makes buffers for what was required; returns whether there are new ones. @throws SystemError if they
   /// don't fit
   bool prepare();
@@ -35,39 +45,59 @@ class PosePool {
   void record(const vk::raii::CommandBuffer& commands);
 
   const std::vector<PoseBuffer>& buffers() const { return buffers_; }
-  /// Where each pose is: buffer << ENSEMBLE_POSE_OFFSET_BITS | first vertex, at firstPose(mesh) + key.
+  /// Where each kept pose is: buffer << ENSEMBLE_POSE_OFFSET_BITS | first vertex, at firstPose(mesh) + key.
   const vk::raii::BufferView& table() const { return table_view_; }
   std::uint32_t firstPose(std::uint32_t mesh) const { return first_pose_[mesh]; }
   const PoseCacheStats& stats() const { return cache_.stats(); }
+  const OwnPoses& own() const { return own_; }
   std::uint64_t skinnedVertices() const { return skinned_vertices_; }  ///< since beginFrame
 
  private:
   struct Job {
+    bool is_own = false;
+    std::uint32_t people_chunk = 0;  ///< of whose palette it is, if it is somebody's own
     std::uint32_t vertex_chunk = 0, buffer = 0;
     GpuSkinJob gpu{};
+    auto place() const { return std::tie(is_own, people_chunk, buffer, vertex_chunk); }
   };
-  static PoseCacheLimits limitsFor(const CrowdAssets& assets, const KeyFrames& frames,
-                                   std::uint64_t budget_bytes, std::uint64_t max_buffer_bytes);
-  void createPipeline();
+  /// A mesh among the own vertices of who wears a combination.
+  struct WornMesh {
+    std::uint32_t mesh = 0, first_vertex = 0;
+  };
+  static std::vector<std::vector<WornMesh>> findWorn(const CrowdAssets& assets);
+  std::uint32_t ownVertexCount(std::uint32_t combination) const;
+  std::uint32_t chooseBufferVertices(std::uint64_t max_buffer_bytes) const;
+  void numberPoses();
+  void createPipelines();
+  void addJob(Job job, const DrawMesh& mesh);
+  static std::uint32_t numberOf(std::vector<std::uint32_t>& numbers, std::uint32_t own_number,
+                                std::uint32_t& count);
   void makeRoomForJobs();
+  void recordJobs(const vk::raii::CommandBuffer& commands, std::size_t first, std::size_t end,
+                  std::uint32_t& group);
 
   gpu::Device& device_;
   const CrowdAssets& assets_;
-  const KeyFrames& frames_;
-  const gpu::Image& animation_texture_;
-  PoseCacheLimits limits_;
+  const CrowdState& state_;
+  std::vector<std::vector<WornMesh>> worn_;  // per combination
+  std::uint32_t buffer_vertices_;
   PoseCache cache_;
+  OwnPoses own_;
   std::vector<std::uint32_t> first_pose_;  // per mesh; wraps around
   gpu::Buffer table_;
   vk::raii::BufferView table_view_ = nullptr;
+  // The cache's buffers and those of own poses have one numbering, in the order in which they became needed.
+  std::vector<std::uint32_t> numbers_of_kept_, numbers_of_own_;
+  std::uint32_t buffer_count_ = 0;
   std::vector<PoseBuffer> buffers_;
   std::vector<Job> jobs_;
   std::uint64_t group_count_ = 0, skinned_vertices_ = 0;
   gpu::Buffer gpu_jobs_, gpu_groups_;
   vk::raii::Sampler sampler_ = nullptr;
-  vk::raii::DescriptorSetLayout set_layout_ = nullptr;
+  vk::raii::DescriptorSetLayout set_layout_ = nullptr, matrices_layout_ = nullptr;
+  gpu::DescriptorSets matrices_sets_;  // per chunk of people
   vk::raii::PipelineLayout layout_ = nullptr;
-  vk::raii::Pipeline pipeline_ = nullptr;
+  vk::raii::Pipeline key_pipeline_ = nullptr, own_pipeline_ = nullptr;
 };
 
 }  // namespace ensemble

@@ -22,7 +22,7 @@ std::uint32_t numberOf(std::vector<T>& known, const T& value) {
 RasterItems::RasterItems(gpu::Device& device, const CrowdAssets& assets, const PosePool& poses)
     : assets_(assets) {
   makeItems(device, poses);
-  makeShown(device);
+  makeShown(device, poses);
 }
 
 std::uint32_t RasterItems::pairOf(const DrawItem& item) {
@@ -73,9 +73,9 @@ std::vector<PlanItem> RasterItems::planItems(bool to_sun) {
   return items;
 }
 
-void RasterItems::makeShown(gpu::Device& device) {
+void RasterItems::makeShown(gpu::Device& device, const PosePool& poses) {
   const auto combination_count = static_cast<std::uint32_t>(assets_.shown().size());
-  std::vector<std::array<std::uint32_t, 2>> table(combination_count);
+  std::vector<std::array<std::uint32_t, 4>> table(combination_count);
   for (std::uint32_t c = 0; c < combination_count; ++c) {
     std::vector<ShownItem>&shown = shown_.emplace_back(), &casting = casting_.emplace_back();
     std::uint32_t face = 0;
@@ -85,14 +85,14 @@ void RasterItems::makeShown(gpu::Device& device) {
       if (item.index_count == 0) continue;
       shown.push_back({id.value, face});
       if (item.gpu.is_covered == 0) casting.push_back({id.value, face});
-      table.push_back({id.value, face});
+      table.push_back({id.value, face, poses.firstOwnVertex(c, item.mesh), 0});
       face += item.index_count / 3;
     }
-    table[c] = {first, static_cast<std::uint32_t>(shown.size())};
+    table[c] = {first, static_cast<std::uint32_t>(shown.size()), 0, 0};
   }
   shown_buffer_ = gpu::uploadBuffer(device, std::as_bytes(std::span(table)),
                                     vk::BufferUsageFlagBits::eUniformTexelBuffer, "what combinations show");
-  shown_view_ = shown_buffer_.makeTexelView(device, vk::Format::eR32G32Uint);
+  shown_view_ = shown_buffer_.makeTexelView(device, vk::Format::eR32G32B32A32Uint);
 }
 
 }  // namespace ensemble

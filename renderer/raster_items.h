@@ -46,7 +46,7 @@ class RasterItems {
 
  private:
   void makeItems(gpu::Device& device, const PosePool& poses);
-  void makeShown(gpu::Device& device);
+  void makeShown(gpu::Device& device, const PosePool& poses);
   std::uint32_t pairOf(const DrawItem& item);
 
   const CrowdAssets& assets_;

@@ -38,11 +38,12 @@ ScreenRows sunRows(const ShadowFit& fit) {
   return {to_texels(0), to_texels(1), rowOf(fit.shadow_from_world, 2)};
 }
 
-GpuRasterPerson makeRasterPerson(const ScreenRows& rows, const GpuCharacter& character, const KeptBox& box) {
+GpuRasterPerson makeRasterPerson(const ScreenRows& rows, const vec4 (&world_from_box)[3],
+                                 const KeptBox& box) {
   GpuRasterPerson person{};
   glm::dvec4 world[3];
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec4 row(character.world_from_model[i]);
+    const glm::dvec4 row(world_from_box[i]);
     const double offset = glm::dot(glm::dvec3(row), glm::dvec3(box.low)) + row.w;
     world[i] = glm::dvec4(glm::dvec3(row) * double{box.step}, offset);
     person.world_from_kept[i] = world[i];

@@ -18,7 +18,8 @@ struct ScreenRows {
 ScreenRows cameraRows(const View& view, const Tile& tile);
 ScreenRows sunRows(const ShadowFit& fit);
 
-GpuRasterPerson makeRasterPerson(const ScreenRows& rows, const GpuCharacter& character, const KeptBox& box);
+/// @param world_from_box rows: from what the box is in, a person's model space or the world, to the world
+GpuRasterPerson makeRasterPerson(const ScreenRows& rows, const vec4 (&world_from_box)[3], const KeptBox& box);
 
 /// Whether no triangle of somebody can get too large for fixed-point edge functions, nor comes near the
 /// camera's plane. @param longest_edge of the triangles, metres, scale included

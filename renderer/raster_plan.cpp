@@ -8,11 +8,10 @@
 namespace ensemble {
 
 RasterPlan::RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<ShownItem>> shown,
-                       std::uint32_t key_count, std::uint32_t triangles_per_group)
+                       std::uint32_t triangles_per_group)
     : items_(std::move(items)),
       shown_(std::move(shown)),
       triangles_per_group_(triangles_per_group),
-      key_cursors_(key_count),
       item_first_(items_.size()),
       item_count_(items_.size()) {
   ENSEMBLE_CHECK(triangles_per_group > 0);
@@ -25,8 +24,8 @@ RasterPlan::RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<Show
   face_bits_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::bit_width(most_faces - 1)));
 }
 
-void RasterPlan::sortByKey(std::span<const PlanPerson> people) {
-  std::fill(key_cursors_.begin(), key_cursors_.end(), 0u);
+void RasterPlan::sortByKey(std::span<const PlanPerson> people, std::uint32_t key_count) {
+  key_cursors_.assign(key_count, 0u);
   for (const PlanPerson& person : people) ++key_cursors_[person.key];
   blocks_.clear();
   std::uint32_t first = 0;

@@ -26,7 +26,7 @@ struct ShownItem {
 /// Somebody to draw.
 struct PlanPerson {
   std::uint32_t combination = 0;
-  std::uint32_t key = 0;  ///< of all wardrobes' keys: who have the same are in the same pose
+  std::uint32_t key = 0;  ///< who have the same are in the same pose
 };
 
 /// Groups that are drawn with the same things bound.
@@ -42,15 +42,16 @@ struct PlanPose {
 
 class RasterPlan {
  public:
-  /// @param shown per combination, ascending first_face @param key_count of all wardrobes @param
-  /// triangles_per_group at least 1
-  RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<ShownItem>> shown, std::uint32_t key_count,
+  /// @param shown per combination, ascending first_face @param triangles_per_group at least 1
+  RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<ShownItem>> shown,
              std::uint32_t triangles_per_group);
 
   /// Plans for people in the order of their ids. `pose_of(mesh, key)` gives a PlanPose.
+  /// @param key_count all keys are below it
   template <class PoseOf>
-  void build(std::span<const PlanPerson> people, std::uint32_t face_bits, const PoseOf& pose_of) {
-    sortByKey(people);
+  void build(std::span<const PlanPerson> people, std::uint32_t key_count, std::uint32_t face_bits,
+             const PoseOf& pose_of) {
+    sortByKey(people, key_count);
     beginWork();
     for (const Block& block : blocks_) {
       gather(block, people, face_bits);
@@ -72,7 +73,7 @@ class RasterPlan {
   struct Block {
     std::uint32_t key = 0, first = 0, count = 0;
   };
-  void sortByKey(std::span<const PlanPerson> people);
+  void sortByKey(std::span<const PlanPerson> people, std::uint32_t key_count);
   void beginWork();
   /// Entries of all people of a block, item by item; touched_ are its items, with ranges in entry_first_ ...
   void gather(const Block& block, std::span<const PlanPerson> people, std::uint32_t face_bits);

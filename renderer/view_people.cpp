@@ -11,6 +11,16 @@ namespace {
 // graphics pipeline does, and people taller than that have triangles that it draws as well.
 constexpr std::size_t kLeastPeople = 64;
 constexpr float kTallest = 320.0f;  // pixels
+// What a leg that is bent to hold its foot may lengthen an edge by, for somebody 1.7 m tall. Skirts hang
+// between both legs.
+constexpr float kBentLegs = 0.6f;  // metres
+
+/// The longest edge of somebody in the pose that it is shown in.
+float longestEdge(const PeopleAtTime& people, std::uint32_t p, bool is_exact) {
+  const GpuCharacter& character = people.characters[p];
+  const bool holds_feet = is_exact && (character.feet[0].w > 0.0f || character.feet[1].w > 0.0f);
+  return people.longest_edges[p] + (holds_feet ? kBentLegs * people.heights[p] / 1.7f : 0.0f);
+}
 
 }  // namespace
 
@@ -32,14 +42,13 @@ void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames&
   std::size_t computed = 0, cast = 0;
   for (const std::uint32_t p : seen) {
     const float size = set_key(p);
-    is_computed_[p] = computes && computed < most && keys_[p] != kExact && (!is_auto || size <= kTallest) &&
-                      fitsCamera(view, people.bounds[p], people.longest_edges[p]);
+    is_computed_[p] = computes && computed < most && (!is_auto || size <= kTallest) &&
+                      fitsCamera(view, people.bounds[p], longestEdge(people, p, keys_[p] == kExact));
     computed += is_computed_[p];
   }
   for (const std::uint32_t p : casters) {
     set_key(p);
-    casts_computed_[p] =
-        computes && cast < most && keys_[p] != kExact && fitsSun(fit, people.longest_edges[p]);
+    casts_computed_[p] = computes && cast < most && fitsSun(fit, longestEdge(people, p, keys_[p] == kExact));
     cast += casts_computed_[p];
   }
   if (!is_auto) return;

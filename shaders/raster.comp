@@ -101,8 +101,8 @@ bool isCutOut(CutOut mask, Screen a, Screen b, Screen c, float per_area, ivec3 e
   return mask.alpha * textureGrad(base_color_textures, vec3(uv, mask.layer), uv_right, uv_down).a < mask.cutoff;
 }
 
-// Fixed-point edge functions, top-left rule. Extents of a triangle are below 2^15 sub-pixels: whoever has larger
-// ones is drawn by the graphics pipeline.
+// Fixed-point edge functions, top-left rule. Extents of a triangle are below 2^15 sub-pixels, since whoever has
+// larger ones is drawn by the graphics pipeline; a leg bent beyond all bounds leaves its triangle out.
 void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uint id, bool is_there) {
   ivec2 ab = b.at - a.at, ac = c.at - a.at;
   int area = ac.x * ab.y - ac.y * ab.x;
@@ -114,9 +114,11 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uin
     ac = c.at - a.at;
     area = -area;
   }
-  ivec2 low = max((min(a.at, min(b.at, c.at)) + (kSubpixels - 1 - kReach)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
-  ivec2 high = min((max(a.at, max(b.at, c.at)) + kReach) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
-  if (is_there && area > 0 && low.x <= high.x && low.y <= high.y) {
+  ivec2 least = min(a.at, min(b.at, c.at)), greatest = max(a.at, max(b.at, c.at));
+  ivec2 low = max((least + (kSubpixels - 1 - kReach)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
+  ivec2 high = min((greatest + kReach) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
+  bool fits = ((greatest.x - least.x) | (greatest.y - least.y)) < 1 << 15;
+  if (is_there && fits && area > 0 && low.x <= high.x && low.y <= high.y) {
     ivec2 bc = c.at - b.at, from = low << ENSEMBLE_SUBPIXEL_BITS;
     // Twice the areas opposite of b and c, and of a, at the first pixel; steps to the right and down.
     int e_b = ac.y * (a.at.x - from.x) - ac.x * (a.at.y - from.y);

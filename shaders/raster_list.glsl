@@ -3,13 +3,12 @@
 void listSamples(uint pixel, uvec2 key, uint samples) {
   uint id = ~key.x;
   uvec4 person = texelFetch(who, int(id >> face_bits));
-  uint item = itemOfFace(person.x, id & ((1u << face_bits) - 1u)).x;
-  uvec4 first = texelFetch(items, int(item * ENSEMBLE_RASTER_ITEM_TEXELS));
-  uint pose = texelFetch(pose_table, int(first.z + person.y)).x;
-  uint of_bin = first.w + (pose >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
+  uvec3 item = itemOfFace(person.x, id & ((1u << face_bits) - 1u));
+  uvec4 first = texelFetch(items, int(item.x * ENSEMBLE_RASTER_ITEM_TEXELS));
+  uint of_bin = first.w + (poseOf(person, item, first.z) >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
   atomicAdd(bins[of_bin].count, 1u);
   pixels[atomicAdd(bins[bin_count].count, 1u)] =
-      uvec2(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item | of_bin << ENSEMBLE_LISTED_ITEM_BITS);
+      uvec2(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item.x | of_bin << ENSEMBLE_LISTED_ITEM_BITS);
 }
 
 // At equal depth people come before ground and environment.

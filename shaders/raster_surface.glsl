@@ -61,9 +61,10 @@ Surface surfaceAt(uvec2 listed, bool textured) {
   s.item_1 = texelFetch(items, item_texel + 1);
   s.item_2 = texelFetch(items, item_texel + 2);
   uint face = id & ((1u << face_bits) - 1u);
-  s.triangle = face - itemOfFace(s.person.x, face).y;
+  uvec3 shown_item = itemOfFace(s.person.x, face);
+  s.triangle = face - shown_item.y;
 
-  uint pose = texelFetch(pose_table, int(s.item_0.z + s.person.y)).x & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u);
+  uint pose = poseOf(s.person, shown_item, s.item_0.z) & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u);
   int corner = int(s.item_0.x + 3u * s.triangle);
   uvec3 index = uvec3(texelFetch(indices, corner).x, texelFetch(indices, corner + 1).x, texelFetch(indices, corner + 2).x);
   uvec2 kept_a = texelFetch(poses, int(pose + index.x)).xy;

@@ -1,4 +1,5 @@
-// Skins meshes at key frames and packs them, once for all people who come by that pose (the pose cache).
+// Skins meshes and packs them: at key frames once for all people who come by that pose (the pose cache), or for
+// one person between them, whose joints are in the palette.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/raster_types.h"
@@ -9,13 +10,16 @@ layout(local_size_x = ENSEMBLE_SKIN_GROUP) in;
 layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_JOBS, std430) readonly buffer Jobs { GpuSkinJob jobs[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_GROUPS, std430) readonly buffer Groups { GpuSkinGroup groups[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_VERTICES) uniform usamplerBuffer vertices;  // GpuVertex: 5 texels
-layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_ANIMATION) uniform sampler2D animation;
 layout(set = 0, binding = ENSEMBLE_BINDING_SKIN_POSES, std430) writeonly buffer Poses { uvec2 poses[]; };
+layout(set = 1, binding = ENSEMBLE_BINDING_SKIN_ANIMATION) uniform sampler2D animation;
+layout(set = 1, binding = ENSEMBLE_BINDING_SKIN_PALETTE) uniform samplerBuffer palette;
+layout(constant_id = ENSEMBLE_CONSTANT_OWN_POSES) const bool kOwnPoses = false;
 
 layout(push_constant) uniform Push { uint first_group, group_count; };
 
-vec4 animationRow(uint matrix, uint row) {
+vec4 matrixRow(uint matrix, uint row) {
   uint texel = matrix * 3u + row;
+  if (kOwnPoses) return texelFetch(palette, int(texel));
   return texelFetch(animation, ivec2(texel % ENSEMBLE_ANIMATION_WIDTH, texel / ENSEMBLE_ANIMATION_WIDTH), 0);
 }
 
@@ -36,8 +40,8 @@ void main() {
   vec4 weight = vec4(unpackUnorm2x16(weights.x), unpackUnorm2x16(weights.y));
   vec4 row[3];
   for (uint i = 0u; i < 3u; ++i) {
-    row[i] = animationRow(job.first_matrix + joint.x, i) * weight.x + animationRow(job.first_matrix + joint.y, i) * weight.y +
-             animationRow(job.first_matrix + joint.z, i) * weight.z + animationRow(job.first_matrix + joint.w, i) * weight.w;
+    row[i] = matrixRow(job.first_matrix + joint.x, i) * weight.x + matrixRow(job.first_matrix + joint.y, i) * weight.y +
+             matrixRow(job.first_matrix + joint.z, i) * weight.z + matrixRow(job.first_matrix + joint.w, i) * weight.w;
   }
   vec3 posed = vec3(dot(row[0], position), dot(row[1], position), dot(row[2], position));
   vec3 turned = vec3(dot(row[0].xyz, normal), dot(row[1].xyz, normal), dot(row[2].xyz, normal));

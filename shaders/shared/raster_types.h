@@ -36,13 +36,17 @@
 #define ENSEMBLE_BINDING_SKIN_JOBS 0
 #define ENSEMBLE_BINDING_SKIN_GROUPS 1
 #define ENSEMBLE_BINDING_SKIN_VERTICES 2
-#define ENSEMBLE_BINDING_SKIN_ANIMATION 3
-#define ENSEMBLE_BINDING_SKIN_POSES 4
+#define ENSEMBLE_BINDING_SKIN_POSES 3
+// And one for where its matrices come from.
+#define ENSEMBLE_BINDING_SKIN_ANIMATION 0
+#define ENSEMBLE_BINDING_SKIN_PALETTE 1
 
 // Specialisation constants of the rasteriser.
 #define ENSEMBLE_CONSTANT_LANES 3
 #define ENSEMBLE_CONSTANT_TO_SUN 4
 #define ENSEMBLE_CONSTANT_SAMPLES 5
+// Of the pass that skins poses: people's own, from the palette, instead of those at key frames.
+#define ENSEMBLE_CONSTANT_OWN_POSES 0
 
 // Bits of a sub-pixel coordinate, as graphics pipelines have them.
 #define ENSEMBLE_SUBPIXEL_BITS 8
@@ -67,6 +71,8 @@
 #define ENSEMBLE_POSE_NORMAL_Y_BITS 9
 // Where a pose lies: its first vertex in the low bits, above them the number of its buffer.
 #define ENSEMBLE_POSE_OFFSET_BITS 23
+// Somebody has a pose of its own, and where it lies stands in the other bits.
+#define ENSEMBLE_OWN_POSE 0x80000000u
 
 // Texels of a person in the table of people: rows to the screen, then rows to the world.
 #define ENSEMBLE_PERSON_TEXELS 6
@@ -87,7 +93,7 @@ struct GpuRasterPerson {
 /// The rest about the same person.
 struct GpuRasterWho {
   uint combination;
-  uint key;  ///< of the person's wardrobe
+  uint pose;  ///< key of the person's wardrobe; or ENSEMBLE_OWN_POSE
   uint tint_seed;
   uint number;  ///< in the whole crowd
 };
@@ -125,13 +131,13 @@ struct GpuRasterGroup {
   uint first_triangle;
 };
 
-/// A mesh at a key, to be skinned.
+/// A mesh to be skinned, at a key or as somebody's own.
 struct GpuSkinJob {
-  vec4 box;  ///< xyz: low corner of the clip's box, metres; w: steps a metre
+  vec4 box;  ///< xyz: low corner of the clip's box, or in the world, metres; w: steps a metre
   uint first_vertex;
   uint vertex_count;
   uint pose;          ///< first vertex in its buffer
-  uint first_matrix;  ///< of the key in the animation texture
+  uint first_matrix;  ///< of the key in the animation texture, or of the person in the palette
 };
 
 /// A run of vertices of a job.

@@ -23,6 +23,7 @@ struct Shot {
   const char* camera;
   double seconds;
   std::uint32_t samples;
+  float snap_below = 100000.0f;  ///< pixels; 0: everybody is between key frames
 };
 /// `mixed` and `low`: some people cross the near plane, or fill the picture, and are the pipeline's.
 constexpr Shot kShots[] = {
@@ -32,7 +33,11 @@ constexpr Shot kShots[] = {
     {"far, 4 samples", "{position: [0, 14, 60], target: [0, 0.9, 0], fov_y: 11}", 1.1, 4},
     {"mixed", "{position: [0.3, 1.5, 0.4], target: [3, 1.2, 1], fov_y: 70}", 0.9, 1},
     {"low", "{position: [-1.2, 0.1, 1], target: [2, 1, -2], fov_y: 100, near: 0.5}", 2.1, 1},
-    {"above", "{position: [0, 9, 0.5], target: [0, 0, 0], fov_y: 50}", 0.2, 1}};
+    {"above", "{position: [0, 9, 0.5], target: [0, 0, 0], fov_y: 50}", 0.2, 1},
+    {"near, between keys", "{position: [0, 1.8, 6], target: [0, 0.9, 0], fov_y: 45}", 0.37, 1, 0.0f},
+    {"mixed, both", "{position: [0.3, 1.5, 0.4], target: [3, 1.2, 1], fov_y: 70}", 0.9, 1, 150.0f},
+    {"far, between keys, 4 samples", "{position: [0, 14, 60], target: [0, 0.9, 0], fov_y: 11}", 1.1, 4,
+     0.0f}};
 
 class RasterPictures : public ::testing::Test {
  protected:
@@ -53,9 +58,9 @@ class RasterPictures : public ::testing::Test {
 
   Picture render(const Shot& shot, const char* raster, const char* background = "sky") {
     const std::string text = std::string("version: 1\nwardrobe: {female: female, male: male}\nraster: ") +
-                             raster +
-                             "\nposes: {snap_below: 100000}\noutput: {width: 480, height: 270, samples: " +
-                             std::to_string(shot.samples) + ", background: " + background +
+                             raster + "\nposes: {snap_below: " + std::to_string(shot.snap_below) +
+                             "}\noutput: {width: 480, height: 270, samples: " + std::to_string(shot.samples) +
+                             ", background: " + background +
                              "}\ncrowd: {count: 90, seed: 5, placement: {kind: disc, spacing: 0.8}, clips: "
                              "{walk: 0.6, idle: 0.4}}\n"
                              "camera: " +

@@ -40,17 +40,20 @@ TEST_P(BothRasterisers, DrawTheSamePicture) {
       {.position = Vec3(0.0f, 12.0f, 40.0f), .target = Vec3(0.0f, 0.9f, 0.0f), .fov_y = radians(20.0f)},
       {.position = Vec3(0.5f, 1.2f, 0.3f), .target = Vec3(3.0f, 1.0f, 2.0f)},  // among them
   };
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
+  // At key frames, and between them.
+  for (std::size_t c = 0; c < 2 * cameras.size(); ++c) {
     std::array<Picture, 2> pictures;
     for (const RasterKind raster : {RasterKind::kPipeline, RasterKind::kCompute}) {
       Scene scene = crowdScene(raster);
-      scene.camera = cameras[c];
+      scene.camera = cameras[c / 2];
+      if (c % 2 == 1) scene.poses.snap_below = 0.0f;
       scene.output.samples = GetParam();
       pictures[raster == RasterKind::kCompute] = drawScene(scene, viewWithAovs(scene), 0.37);
     }
     const auto& [pipeline, compute] = pictures;
     EXPECT_EQ(pipeline.stats.characters_computed, 0u);
-    EXPECT_GT(compute.stats.characters_computed, c == 2 ? 10u : 90u);
+    EXPECT_GT(compute.stats.characters_computed, c / 2 == 2 ? 10u : 90u);
+    EXPECT_EQ(compute.stats.poses.own > 0, c % 2 == 1);
     EXPECT_LE(compute.stats.characters_computed, compute.stats.characters_drawn);
     EXPECT_EQ(compute.stats.triangles(), pipeline.stats.triangles()) << c;
     const std::size_t people = testing::countPeoplePixels(pipeline);
@@ -125,23 +128,42 @@ TEST_F(ComputeRasterTest, OfTwoInOnePlaceTheFirstShows) {
   EXPECT_TRUE(seen.contains(1));
 }
 
-// The larger half of the people is posed exactly and drawn by the graphics pipeline; the two meet by depth.
+// Those who come near the camera are drawn by the graphics pipeline; the two meet by depth. The larger half
+// is between key frames.
 TEST_P(BothRasterisers, MeetByDepth) {
   std::array<Picture, 2> pictures;
   for (const RasterKind raster : {RasterKind::kPipeline, RasterKind::kCompute}) {
     Scene scene = crowdScene(raster);
     scene.output.samples = GetParam();
-    scene.poses.snap_below = 33.0f;
+    scene.camera = {.position = Vec3(0.5f, 1.2f, 0.3f), .target = Vec3(3.0f, 1.0f, 2.0f)};
+    scene.poses.snap_below = 100.0f;
     pictures[raster == RasterKind::kCompute] = drawScene(scene, viewWithAovs(scene), 0.2);
   }
   const auto& [pipeline, compute] = pictures;
-  EXPECT_GT(compute.stats.characters_computed, 20u);
-  EXPECT_LT(compute.stats.characters_computed, 80u);
+  EXPECT_GT(compute.stats.characters_computed, 10u);
+  EXPECT_LT(compute.stats.characters_computed, compute.stats.characters_drawn);
+  EXPECT_GT(compute.stats.poses.own, 5u);
+  EXPECT_GT(compute.stats.poses.skinned, 5u);
   std::size_t others = 0;
   for (std::size_t i = 0; i < pipeline.character.size(); ++i)
     others += pipeline.character[i] != compute.character[i];
   EXPECT_LE(others, testing::countPeoplePixels(pipeline) / 500 + 5);
   EXPECT_LE(countDifferences(pipeline.color, compute.color), testing::countPeoplePixels(pipeline) / 500 + 5);
+}
+
+// One call, one time: people at keys in one view are between them in the next, and the other way round.
+TEST_F(ComputeRasterTest, ViewsOfOneTimeDoNotDisturbEachOther) {
+  const Scene scene = crowdScene(RasterKind::kCompute);
+  const auto renderer = makeRenderer(scene);
+  std::vector<View> views(3, viewWithAovs(scene));
+  views[1].snap_below = 0.0f;
+  std::vector<Picture> pictures(views.size());
+  renderer->render(views, 0.37, pictures);
+  EXPECT_EQ(pictures[0].color.rgba, pictures[2].color.rgba);
+  EXPECT_NE(pictures[0].color.rgba, pictures[1].color.rgba);
+  EXPECT_EQ(pictures[0].stats.poses.own, 0u);
+  EXPECT_GT(pictures[1].stats.poses.own, 90u);
+  EXPECT_EQ(draw(*renderer, views[1], 0.37).color.rgba, pictures[1].color.rgba);
 }
 
 // Hidden faces are drawn and cast no shadow; masks cut out of the picture and of the shadow.

@@ -21,7 +21,7 @@ RasterPlan smallPlan() {
     return PlanItem{mesh, state, work};
   };
   return RasterPlan({item(0, 0, 0, 10), item(0, 0, 30, 3), item(1, 1, 39, 17)},
-                    {{{0, 0}, {2, 10}}, {{1, 0}, {2, 3}}}, 4, 8);
+                    {{{0, 0}, {2, 10}}, {{1, 0}, {2, 3}}}, 8);
 }
 
 PlanPose poseAt(std::uint32_t mesh, std::uint32_t key) { return {0, 1000 * mesh + 10 * key}; }
@@ -30,7 +30,7 @@ TEST(RasterPlan, EveryTriangleOfEveryoneOnce) {
   RasterPlan plan = smallPlan();
   EXPECT_EQ(plan.faceBits(), 5u) << "27 faces at most";
   const std::vector<PlanPerson> people = {{0, 2}, {1, 2}, {0, 1}, {0, 2}, {1, 0}};
-  plan.build(people, plan.faceBits(), poseAt);
+  plan.build(people, 4, plan.faceBits(), poseAt);
   std::set<std::tuple<std::uint32_t, std::uint32_t>> drawn;  // id and index of the triangle's first corner
   std::map<std::uint32_t, std::set<std::uint32_t>> poses_of_person;
   std::uint32_t groups = 0;
@@ -65,7 +65,7 @@ TEST(RasterPlan, PeopleOfOnePoseAreDrawnTogether) {
   RasterPlan plan = smallPlan();
   const std::vector<PlanPerson> people = {{0, 2}, {1, 2}, {0, 2}, {0, 1}};
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> asked;
-  plan.build(people, plan.faceBits(), [&](std::uint32_t mesh, std::uint32_t key) {
+  plan.build(people, 4, plan.faceBits(), [&](std::uint32_t mesh, std::uint32_t key) {
     ++asked[{mesh, key}];
     return poseAt(mesh, key);
   });
@@ -79,8 +79,8 @@ TEST(RasterPlan, PeopleOfOnePoseAreDrawnTogether) {
 
 TEST(RasterPlan, NobodyIsNoWork) {
   RasterPlan plan = smallPlan();
-  plan.build(std::vector<PlanPerson>{{0, 1}}, plan.faceBits(), poseAt);
-  plan.build({}, plan.faceBits(), poseAt);
+  plan.build(std::vector<PlanPerson>{{0, 1}}, 4, plan.faceBits(), poseAt);
+  plan.build({}, 4, plan.faceBits(), poseAt);
   EXPECT_TRUE(plan.groups().empty());
   EXPECT_TRUE(plan.batches().empty());
   EXPECT_EQ(plan.triangleCount(), 0u);

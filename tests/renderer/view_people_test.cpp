@@ -58,7 +58,7 @@ TEST(RasterPeople, KeptPositionsComeOutInTheWorld) {
   const KeptBox box{Vec3(-1.0f, -0.5f, -1.0f), 0.001f};
   const View view = smallView();
   const ScreenRows rows = cameraRows(view, wholeOf(view));
-  const GpuRasterPerson person = makeRasterPerson(rows, character, box);
+  const GpuRasterPerson person = makeRasterPerson(rows, character.world_from_model, box);
   const Vec4 kept(700.0f, 1200.0f, 300.0f, 1.0f);
   const Vec3 model(-0.3f, 0.7f, -0.7f),
       world(2.0f * model.z + 5.0f, 2.0f * model.y + 1.0f, -2.0f * model.x - 3.0f);
@@ -194,19 +194,19 @@ class ViewPeopleTest : public ::testing::Test {
   ViewPeople shown_;
 };
 
-TEST_F(ViewPeopleTest, SmallPeopleSnapAndOnlyTheyAreComputed) {
+TEST_F(ViewPeopleTest, SmallPeopleSnapAndOthersAreComputedToo) {
   View view = smallView();
   view.snap_below = 40.0f;
   view.raster = RasterKind::kCompute;
   const Row row(200);
-  const std::size_t count = computed(view, row);
-  EXPECT_GT(count, 100u);
-  EXPECT_LT(count, 200u);
+  EXPECT_GT(computed(view, row), 190u);
+  std::size_t exact = 0;
   for (const std::uint32_t p : row.all) {
     const bool is_small = sizeOnScreen(view, row.bounds[p].center - Vec3(0.0f, 1.0f, 0.0f), 1.7f) < 40.0f;
     EXPECT_EQ(shown_.key(p) != ViewPeople::kExact, is_small) << p;
-    EXPECT_EQ(shown_.isComputed(p), is_small) << p;
+    exact += !is_small && shown_.isComputed(p);
   }
+  EXPECT_GT(exact, 20u);
   view.raster = RasterKind::kPipeline;
   EXPECT_EQ(computed(view, row), 0u);
   EXPECT_NE(shown_.key(199), ViewPeople::kExact) << "poses don't depend on the rasteriser";
@@ -221,6 +221,23 @@ TEST_F(ViewPeopleTest, AutoLeavesSmallCrowdsToThePipeline) {
   view.raster = RasterKind::kCompute;
   EXPECT_GT(computed(view, Row(40)), 30u);
   EXPECT_EQ(computed(view, Row(40), 20), 20u) << "no more than ids can tell apart";
+}
+
+// A leg that is bent to hold its foot lengthens edges, but only in poses of one's own.
+TEST_F(ViewPeopleTest, WhoHoldsItsFeetNeedsMoreRoom) {
+  View view = smallView();
+  view.camera.position.z = 1.0f;
+  view.raster = RasterKind::kCompute;
+  Row row(100);
+  const auto count = [&](float snap_below, float holds) {
+    view.snap_below = snap_below;
+    for (GpuCharacter& character : row.characters) character.feet[0].w = holds;
+    return computed(view, row);
+  };
+  EXPECT_EQ(count(1000.0f, 1.0f), count(1000.0f, 0.0f));
+  EXPECT_EQ(count(0.0f, 0.0f), count(1000.0f, 0.0f));
+  EXPECT_LT(count(0.0f, 1.0f), count(0.0f, 0.0f));
+  EXPECT_GT(count(0.0f, 1.0f), 80u);
 }
 
 TEST_F(ViewPeopleTest, WhoseTrianglesGetTooLargeIsNotComputed) {
