@@ -49,6 +49,7 @@ void Contest::runRound() {
     }
     row.frame_ms.push_back(stats.frame_ms);
     row.cpu_ms.push_back(stats.cpu_ms);
+    row.parts_ms.push_back(stats.parts_ms);
     const std::uint64_t invocations = stats.vertexInvocations().value_or(0);
     row.least_invocations = std::min(row.least_invocations, invocations);
     row.most_invocations = std::max(row.most_invocations, invocations);

@@ -19,6 +19,7 @@ struct ContestRow {
   Technique technique = Technique::kTagged;
   std::size_t characters = 0;
   std::vector<double> frame_ms = {}, cpu_ms = {};  ///< per round
+  std::vector<PartTimes> parts_ms = {};            ///< likewise
   FrameStats stats = {};                           ///< counts, those of every round
   /// Vertex invocations may differ between rounds, where a device shares vertices as it likes.
   std::uint64_t least_invocations = 0, most_invocations = 0;

@@ -27,6 +27,16 @@ Json toJson(const PassStats& environment) {
           {"draw_calls", environment.draw_calls}};
 }
 
+Json mediansOfParts(const std::vector<PartTimes>& rounds) {
+  Json parts = Json::object();
+  for (std::size_t part = 0; part < kFramePartCount; ++part) {
+    std::vector<double> values;
+    for (const PartTimes& round : rounds) values.push_back(round[part]);
+    parts[kFramePartNames[part]] = values.empty() ? 0.0 : median(values);
+  }
+  return parts;
+}
+
 Json toJson(const ContestRow& row) {
   const FrameStats& stats = row.stats;
   const std::optional<std::uint64_t> invocations = stats.vertexInvocations();
@@ -41,6 +51,7 @@ Json toJson(const ContestRow& row) {
           {"frame_ms", spreadOf(row.frame_ms)},
           {"frame_ms_of_rounds", row.frame_ms},
           {"cpu_ms", median(row.cpu_ms)},
+          {"parts_ms", mediansOfParts(row.parts_ms)},
           {"vertex_invocations", invocations ? Json(*invocations) : Json(nullptr)},
           {"vertex_invocations_differ_by", row.most_invocations - row.least_invocations},
           {"triangles", stats.triangles()},

@@ -45,11 +45,18 @@ Json toJson(const PoseStats& poses) {
           {"kept_bytes", poses.kept_bytes}};
 }
 
+Json toJson(const PartTimes& times) {
+  Json parts = Json::object();
+  for (std::size_t part = 0; part < kFramePartCount; ++part) parts[kFramePartNames[part]] = times[part];
+  return parts;
+}
+
 Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stats) {
   return {{"index", index},
           {"file", file},
           {"frame_ms", stats.frame_ms},
           {"cpu_ms", stats.cpu_ms},
+          {"parts_ms", toJson(stats.parts_ms)},
           {"characters_drawn", stats.characters_drawn},
           {"characters_posed", stats.characters_posed},
           {"characters_computed", stats.characters_computed},

@@ -32,19 +32,23 @@ constexpr std::initializer_list<vk::DescriptorType> kBindings = {
     kStorage, kTexels,  kTexels,  kTexels,             // target, indices, poses, vertices
     kTexels,  kTexels,  kTexels,  kTexels,  kTexels,   // items, shown, table of poses, materials, tints
     kStorage, kStorage, kSampled, kImage,              // pixels, bins, depth, picture
-    kSampled, kStorage};                               // drawn, shaded
+    kSampled, kStorage, kTexels,  kTexels};            // drawn, shaded, seen, listed
 constexpr std::initializer_list<vk::DescriptorType> kAovBindings = {kImage, kImage, kImage, kImage, kImage};
 
-constexpr std::uint64_t kVisibleBytes = 8, kListedBytes = 8, kShadedBytes = 8;
+constexpr std::uint64_t kVisibleBytes = 8, kListedBytes = 16, kShadedBytes = 8;
+
+/// Pixels that are listed and shaded at a time.
+std::uint32_t bandPixels(std::uint32_t samples) { return ENSEMBLE_RASTER_BAND / samples; }
 
 std::uint32_t listGroups(std::uint32_t pixels) {
-  return (pixels + ENSEMBLE_LIST_GROUP - 1) / ENSEMBLE_LIST_GROUP;
+  return (pixels + ENSEMBLE_GROUP_PIXELS - 1) / ENSEMBLE_GROUP_PIXELS;
 }
 
 void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
   gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                      Stage::eComputeShader | Stage::eDrawIndirect,
-                     Access::eShaderStorageRead | Access::eShaderStorageWrite | Access::eIndirectCommandRead);
+                     Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite |
+                         Access::eIndirectCommandRead);
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
 struct ComputeRaster::Push {
   std::uint32_t first_group = 0, group_count = 0, face_bits = 0, width = 0, height = 0;
   float near_plane = 0.0f;
-  std::uint32_t bin = 0, bin_count = 0, first_pixel = 0, pixel_count = 0;
+  std::uint32_t bin = 0, bin_count = 0, first_pixel = 0, pixel_count = 0, wide_indices = 0;
 };
 
 ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
@@ -98,15 +102,16 @@ void ComputeRaster::createPipelines() {
     std::uint32_t lanes;
     vk::Bool32 to_sun = false, textured = false;
     std::int32_t samples = 1;
-    vk::Bool32 cut_out = false, hides_faces = false;
+    vk::Bool32 cut_out = false, hides_faces = false, shadows = true;
   };
-  constexpr std::array<vk::SpecializationMapEntry, 6> kEntries = {{
+  constexpr std::array<vk::SpecializationMapEntry, 7> kEntries = {{
       {ENSEMBLE_CONSTANT_LANES, offsetof(Constants, lanes), sizeof(std::uint32_t)},
       {ENSEMBLE_CONSTANT_TO_SUN, offsetof(Constants, to_sun), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_TEXTURED, offsetof(Constants, textured), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_SAMPLES, offsetof(Constants, samples), sizeof(std::int32_t)},
       {ENSEMBLE_CONSTANT_CUT_OUT, offsetof(Constants, cut_out), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_HIDE_FACES, offsetof(Constants, hides_faces), sizeof(vk::Bool32)},
+      {ENSEMBLE_CONSTANT_SHADOWS, offsetof(Constants, shadows), sizeof(vk::Bool32)},
   }};
   const auto make = [&](const vk::raii::PipelineLayout& layout, std::span<const std::uint32_t> spirv,
                         Constants constants) {
@@ -123,14 +128,17 @@ void ComputeRaster::createPipelines() {
   for (const std::int32_t samples : {1, 4}) {
     Sampled& own = sampled_[samples > 1 ? 1 : 0];
     const Constants plain{.lanes = lanes, .samples = samples};
-    Constants textured = plain, cut_out = plain;
-    textured.textured = true;
+    Constants cut_out = plain;
     cut_out.cut_out = true;
     own.raster = make_one(kRasterComp, plain);
     own.cut_out_raster = make_one(kRasterComp, cut_out);
     own.list = samples > 1 ? make_one(kRasterListSamplesComp, plain) : make_one(kRasterListComp, plain);
-    own.plain_color = make_one(kRasterColorComp, plain);
-    own.textured_color = make_one(kRasterColorComp, textured);
+    for (std::uint32_t i = 0; i < own.color.size(); ++i) {
+      Constants color = plain;
+      color.textured = i & 1u;
+      color.shadows = i >> 1;
+      own.color[i] = make_one(kRasterColorComp, color);
+    }
   }
   for (std::uint32_t i = 0; i < sun_.size(); ++i) {
     sun_[i] =
@@ -235,7 +243,9 @@ std::uint32_t ComputeRaster::binCount() const {
 bool ComputeRaster::fits(const TargetSize& size) const {
   const std::uint64_t samples = std::uint64_t{size.width} * size.height * size.samples;
   const std::uint64_t texels = std::uint64_t{size.shadow_size} * size.shadow_size;
-  return std::max(samples * kVisibleBytes, texels * sizeof(float)) <= device_.limits().maxStorageBufferRange;
+  return std::max(samples * kVisibleBytes, texels * sizeof(float)) <=
+             device_.limits().maxStorageBufferRange &&
+         samples <= device_.limits().maxTexelBufferElements;
 }
 
 ComputeRaster::Target ComputeRaster::makeTarget(Pass pass, const ViewTargets& targets) {
@@ -247,16 +257,20 @@ ComputeRaster::Target ComputeRaster::makeTarget(Pass pass, const ViewTargets& ta
   target.height = to_sun ? targets.size.shadow_size : targets.size.height;
   target.samples = pass == Pass::kPicture ? targets.size.samples : 1;
   const std::uint64_t pixels = std::uint64_t{target.width} * target.height;
-  const std::uint64_t band = to_sun ? 0 : std::min<std::uint64_t>(pixels, ENSEMBLE_RASTER_BAND);
+  const std::uint64_t band = to_sun ? 0 : std::min<std::uint64_t>(pixels, bandPixels(target.samples));
   const auto buffer = [&](std::uint64_t bytes, const char* what) {
-    return gpu::Buffer(device_, bytes, Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc,
-                       gpu::Buffer::Kind::kDevice, what);
+    return gpu::Buffer(
+        device_, bytes,
+        Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferDst | Usage::eTransferSrc,
+        gpu::Buffer::Kind::kDevice, what);
   };
   target.visible =
       buffer(pixels * (to_sun ? sizeof(float) : target.samples * kVisibleBytes), "the rasteriser's samples");
   target.pixels = buffer(band * target.samples * 2 * kListedBytes, "the rasteriser's list of pixels");
   target.shaded =
       buffer(target.samples > 1 ? band * target.samples * kShadedBytes : 0, "the rasteriser's colours");
+  target.seen_view = target.visible.makeTexelView(device_, vk::Format::eR32G32Uint);
+  target.listed_view = target.pixels.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
   if (pass != Pass::kAovs) return target;
   target.aov_set = gpu::DescriptorSets(device_, aov_layout_, kAovBindings, 1);
   for (std::uint32_t i = 0; i < targets.aovs.size(); ++i)
@@ -317,6 +331,8 @@ void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Targ
     const gpu::Image& drawn = targets.samples ? targets.samples : targets.linear;
     gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DRAWN, drawn, &sampler_, readable);
     buffer(ENSEMBLE_BINDING_RASTER_SHADED, target.shaded);
+    texels(ENSEMBLE_BINDING_RASTER_SEEN, target.seen_view);
+    texels(ENSEMBLE_BINDING_RASTER_LISTED, target.listed_view);
     gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_PICTURE, targets.linear, nullptr,
                     vk::ImageLayout::eGeneral);
   }
@@ -329,6 +345,10 @@ ComputeRaster::Push ComputeRaster::pushFor(const Target& target, float near_plan
           .near_plane = near_plane,
           .bin = static_cast<std::uint32_t>(items_.bins().size()),
           .bin_count = binCount()};
+}
+
+std::uint32_t ComputeRaster::hasWideIndices(std::uint32_t pair) const {
+  return assets_.indexChunk(items_.pairs()[pair].index_chunk).type == vk::IndexType::eUint32 ? 1u : 0u;
 }
 
 void ComputeRaster::record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
@@ -350,6 +370,7 @@ void ComputeRaster::record(const vk::raii::CommandBuffer& commands, vk::Descript
                                 nullptr);
     push.first_group = batch.first_group;
     push.group_count = batch.group_count;
+    push.wide_indices = hasWideIndices(state.pair);
     commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
     gpu::recordDispatch(commands, batch.group_count, ENSEMBLE_RASTER_GROUPS_X);
   }
@@ -396,12 +417,14 @@ void ComputeRaster::recordBands(const vk::raii::CommandBuffer& commands, vk::Des
                                 const Finish& finish) const {
   Push push = pushFor(target, near_plane);
   const std::uint32_t pixels = target.width * target.height;
-  for (push.first_pixel = 0; push.first_pixel < pixels; push.first_pixel += ENSEMBLE_RASTER_BAND) {
-    push.pixel_count = std::min(ENSEMBLE_RASTER_BAND, pixels - push.first_pixel);
+  const std::uint32_t band = bandPixels(target.samples);
+  for (push.first_pixel = 0; push.first_pixel < pixels; push.first_pixel += band) {
+    push.pixel_count = std::min(band, pixels - push.first_pixel);
     recordList(commands, view_set, target, push);
     Push own = push;
     for (own.bin = 0; own.bin < push.bin_count; ++own.bin) {
       const RasterItems::Bin& bin = items_.bins()[own.bin % items_.bins().size()];
+      own.wide_indices = hasWideIndices(bin.pair);
       bind(bin, target.sets[own.bin / items_.bins().size() * items_.pairs().size() + bin.pair], own);
       commands.dispatchIndirect(target.bins.handle(),
                                 own.bin * sizeof(GpuRasterBin) + offsetof(GpuRasterBin, groups_x));
@@ -412,7 +435,7 @@ void ComputeRaster::recordBands(const vk::raii::CommandBuffer& commands, vk::Des
 }
 
 void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
-                                const ViewTargets& targets, const Target& target, float near_plane) const {
+                                const ViewTargets& targets, const Target& target, const View& view) const {
   gpu::recordBarrier(commands, targets.linear,
                      {.from_stage = Stage::eComputeShader | Stage::eColorAttachmentOutput,
                       .to_stage = Stage::eComputeShader,
@@ -421,9 +444,8 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
                       .from = vk::ImageLayout::eShaderReadOnlyOptimal,
                       .to = vk::ImageLayout::eGeneral});
   const auto bind = [&](const RasterItems::Bin& bin, vk::DescriptorSet set, const Push& push) {
-    const Sampled& own = sampled(target);
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute,
-                          bin.textured ? *own.textured_color : *own.plain_color);
+    const std::uint32_t pipeline = (bin.textured ? 1u : 0u) + (view.light.shadows ? 2u : 0u);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sampled(target).color[pipeline]);
     const std::array<vk::DescriptorSet, 4> sets = {view_set, set,
                                                    layout_.assetSet(items_.pairs()[bin.pair].index_chunk),
                                                    assets_.textures().set(bin.texture_set)};
@@ -437,7 +459,7 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
     commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
     gpu::recordDispatch(commands, listGroups(push.pixel_count), ENSEMBLE_RASTER_GROUPS_X);
   };
-  recordBands(commands, view_set, target, near_plane, bind, resolve);
+  recordBands(commands, view_set, target, view.camera.near_plane, bind, resolve);
   gpu::recordBarrier(commands, targets.linear,
                      {.from_stage = Stage::eComputeShader,
                       .to_stage = Stage::eComputeShader,

@@ -58,6 +58,7 @@ class ComputeRaster {
     std::uint32_t width = 0, height = 0, samples = 1;
     gpu::Buffer visible;  ///< from the camera: depth and id of each sample; from the sun: depth of a texel
     gpu::Buffer pixels, shaded, bins;
+    vk::raii::BufferView seen_view = nullptr, listed_view = nullptr;  ///< of `visible` and `pixels`
     gpu::DescriptorSets sets;  ///< per pair of buffers and buffer of poses
     gpu::DescriptorSets aov_set;
     std::uint32_t work_number = 0, pose_buffers = 0;
@@ -96,7 +97,7 @@ class ComputeRaster {
   /// Shades into `targets.linear` where people are in front of `targets.depth`; these, and `targets.samples`
   /// if there is one, as ColorPass leaves them for shaders.
   void recordColor(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
-                   const ViewTargets& targets, const Target& target, float near_plane) const;
+                   const ViewTargets& targets, const Target& target, const View& view) const;
   /// The same into the images of the AOVs, in layout eGeneral, against `targets.aov_depth`.
   void recordAovs(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
                   float near_plane) const;
@@ -115,6 +116,7 @@ class ComputeRaster {
   void writeSets(const Work& work, const ViewTargets& targets, Target& target) const;
   std::uint32_t binCount() const;
   Push pushFor(const Target& target, float near_plane) const;
+  std::uint32_t hasWideIndices(std::uint32_t pair) const;
   /// Lists and shades, band by band: `bind` binds all for one bin's pixels, `finish` ends a band.
   template <class Bind, class Finish>
   void recordBands(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
@@ -135,8 +137,9 @@ class ComputeRaster {
   vk::raii::PipelineLayout pipeline_layout_ = nullptr, aov_pipeline_layout_ = nullptr;
   /// Pipelines that depend on the number of samples: of one, of four.
   struct Sampled {
-    vk::raii::Pipeline raster = nullptr, cut_out_raster = nullptr, list = nullptr, plain_color = nullptr,
-                       textured_color = nullptr;
+    vk::raii::Pipeline raster = nullptr, cut_out_raster = nullptr, list = nullptr;
+    std::array<vk::raii::Pipeline, 4> color = {nullptr, nullptr, nullptr,
+                                               nullptr};  ///< textured: 1, shadows: 2
   };
   const Sampled& sampled(const Target& target) const { return sampled_[target.samples > 1 ? 1 : 0]; }
   std::array<Sampled, 2> sampled_;

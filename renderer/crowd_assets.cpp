@@ -349,10 +349,10 @@ class CrowdAssets::Builder {
         ENSEMBLE_CHECK(index <= 0xffffu);
         narrow.push_back(static_cast<std::uint16_t>(index));
       }
+      if (narrow.size() % 2 != 0) narrow.push_back(0);  // to whole words
       chunk.indices = gpu::uploadBuffer(device_, bytesOf(narrow), usage, "a buffer of indices");
     }
-    chunk.texels =
-        chunk.indices.makeTexelView(device_, from.wide ? vk::Format::eR32Uint : vk::Format::eR16Uint);
+    chunk.texels = chunk.indices.makeTexelView(device_, vk::Format::eR32Uint);
     chunk.source_faces = gpu::uploadBuffer(device_, bytesOf(from.source_faces), Usage::eStorageBuffer,
                                            "the table of source faces");
     return chunk;

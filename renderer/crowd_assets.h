@@ -55,7 +55,7 @@ struct VertexChunk {
 struct IndexChunk {
   vk::IndexType type = vk::IndexType::eUint16;
   gpu::Buffer indices;
-  vk::raii::BufferView texels = nullptr;  ///< an index each
+  vk::raii::BufferView texels = nullptr;  ///< 32 bits each: one index, or two
   gpu::Buffer source_faces;
 };
 

@@ -132,6 +132,7 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
       main_queues_(device, layout_, assets, state),
       shadow_queues_(device, layout_, assets, state),
       counter_(device, kPassCount),
+      timer_(device),
       shadow_sampler_(makeShadowSampler(device)),
       longest_edges_(std::move(longest_edges)) {
   if (!longest_edges_.empty()) {
@@ -206,6 +207,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     readColor(slot.targets, view, picture);
     stats.frame_ms += millisecondsSince(start);
     addStats(is_first, stats);
+    timer_.addTo(stats.parts_ms);
     if (!view.aovs.empty()) recordAovs(view, slot);
     readAovs(slot.targets, view, picture);
     if (view.coverage) countCoverage(view, slot, picture.coverage);
@@ -222,7 +224,7 @@ void FrameLoop::requireCompute(const TargetSize& size) const {
                                       "compute rasteriser",
                                       size.width, size.height, size.samples)
                         : "it can't rasterise in compute shaders: it has no 64-bit atomics in buffers, or "
-                          "no shuffles in subgroups",
+                          "no shuffles or ballots in subgroups",
        .mend = "set raster to auto"});
 }
 
@@ -326,9 +328,12 @@ void FrameLoop::prepareCompute(const View& view, Slot& slot) {
 void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   counter_.reset(commands_);
+  timer_.begin(commands_);
   state_.recordPoses(commands_);
   if (compute_) compute_->recordPoses(commands_);
+  timer_.end(commands_, FramePart::kPoses);
   if (draws_shadows) recordShadows(view, slot);
+  timer_.end(commands_, FramePart::kShadows);
   const CrowdDraw draw{.assets = &assets_,
                        .layout = &layout_,
                        .queues = &main_queues_,
@@ -336,12 +341,14 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   const bool computed = computes(ComputeRaster::Eye::kCamera);
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain, computed);
-  if (computed) {
-    const float near_plane = view.camera.near_plane;
-    compute_->record(commands_, draw.view_set, slot.computed, near_plane);
-    compute_->recordColor(commands_, draw.view_set, slot.targets, slot.computed, near_plane);
-  }
+  timer_.end(commands_, FramePart::kPipeline);
+  const float near_plane = view.camera.near_plane;
+  if (computed) compute_->record(commands_, draw.view_set, slot.computed, near_plane);
+  timer_.end(commands_, FramePart::kRaster);
+  if (computed) compute_->recordColor(commands_, draw.view_set, slot.targets, slot.computed, view);
+  timer_.end(commands_, FramePart::kShading);
   post_pass_.record(commands_, slot.targets, slot.post_set[0], view.linear);
+  timer_.end(commands_, FramePart::kPost);
   ENSEMBLE_VK(commands_.end());
 }
 

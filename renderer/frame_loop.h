@@ -13,6 +13,7 @@
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_state.h"
 #include "renderer/environment_pass.h"
+#include "renderer/part_timer.h"
 #include "renderer/post_pass.h"
 #include "renderer/queue_buffers.h"
 #include "renderer/shadow_pass.h"
@@ -88,6 +89,7 @@ class FrameLoop {
   EnvironmentQueue main_environment_, shadow_environment_;
   QueueBuffers main_queues_, shadow_queues_;
   VertexCounter counter_;
+  PartTimer timer_;
   vk::raii::Sampler shadow_sampler_ = nullptr;
   vk::raii::CommandPool pool_ = nullptr;
   vk::raii::CommandBuffer commands_ = nullptr;

@@ -1,6 +1,7 @@
 // What a frame cost. Counts are exact and repeatable; times are of this machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -22,6 +23,21 @@ struct PoseStats {
   std::uint64_t kept_bytes = 0;        ///< of all that are kept after the frame
 };
 
+/// What the device does for a frame, in this order; AOVs left out.
+enum class FramePart : std::uint8_t {
+  kPoses,     ///< palettes, and vertices for the compute rasteriser
+  kShadows,   ///< the shadow map, by both rasterisers
+  kPipeline,  ///< the picture as the graphics pipeline draws it: people, environment, ground, sky
+  kRaster,    ///< people in the compute rasteriser
+  kShading,   ///< its pixels listed, sorted, shaded
+  kPost,      ///< to sRGB, and to memory
+};
+inline constexpr std::size_t kFramePartCount = 6;
+inline constexpr std::array<const char*, kFramePartCount> kFramePartNames = {"poses",  "shadows", "pipeline",
+                                                                             "raster", "shading", "post"};
+/// Milliseconds; all 0 where the device has no timestamps.
+using PartTimes = std::array<double, kFramePartCount>;
+
 struct FrameStats {
   std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
   std::uint32_t characters_posed = 0;  ///< whose palettes this view needed first: all but those that compute
@@ -36,6 +52,7 @@ struct FrameStats {
   std::uint64_t environment_bytes = 0;  ///< vertices and indices of the environment
   double frame_ms = 0.0;                ///< from call to finished picture, AOVs left out
   double cpu_ms = 0.0;                  ///< of that, before the device was given its work
+  PartTimes parts_ms{};                 ///< of that, on the device
 
   std::uint64_t drawCalls() const { return shadow.draw_calls + main.draw_calls; }
   std::uint64_t triangles() const { return shadow.triangles + main.triangles; }

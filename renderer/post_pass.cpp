@@ -39,9 +39,8 @@ void PostPass::record(const vk::raii::CommandBuffer& commands, const ViewTargets
                       .to = vk::ImageLayout::eGeneral});
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set, nullptr);
-  constexpr std::uint32_t kGroup = ENSEMBLE_POST_GROUP;
-  commands.dispatch((targets.size.width + kGroup - 1) / kGroup, (targets.size.height + kGroup - 1) / kGroup,
-                    1);
+  commands.dispatch((targets.size.width + ENSEMBLE_POST_GROUP - 1) / ENSEMBLE_POST_GROUP,
+                    (targets.size.height + ENSEMBLE_POST_ROWS - 1) / ENSEMBLE_POST_ROWS, 1);
   gpu::recordBarrier(commands, targets.srgb,
                      {.from_stage = Stage::eComputeShader,
                       .to_stage = Stage::eTransfer,

@@ -41,8 +41,7 @@ void RasterItems::makeItems(gpu::Device& device, const PosePool& poses) {
                    .material = item.gpu.material,
                    .region = item.gpu.region,
                    .first_face = item.gpu.first_face,
-                   .face_offset = item.gpu.face_offset,
-                   .unused = {}});
+                   .face_offset = item.gpu.face_offset});
   }
   ENSEMBLE_CHECK(gpu.size() < (1u << ENSEMBLE_LISTED_ITEM_BITS));
   using Usage = vk::BufferUsageFlagBits;

@@ -12,10 +12,15 @@ vec3 shadowPlace(vec3 world, vec3 normal) {
   return vec3((shadow.xy * 0.5 + 0.5) * view.to_sun.w, clamp(shadow.z, 0.0, 1.0));
 }
 
+#ifndef HAS_SHADOWS
+#define HAS_SHADOWS true  // false only where there are none: view.ray_x.w tells for those who don't know
+#endif
+
 // The share of the sun that arrives at a point: tents over the shadow map, made of bilinear samples
 // whose places and weights follow from the tent's integral (after Castano, "Shadow Mapping Summary",
 // 2013). People, who are small, have 3 x 3 texels from 4 samples; the ground 5 x 5 from 9.
 float sunShare3(vec3 world, vec3 normal) {
+  if (!HAS_SHADOWS) return 1.0;
   vec3 place = shadowPlace(world, normal);
   vec2 base = floor(place.xy + 0.5);
   vec2 st = place.xy + 0.5 - base;

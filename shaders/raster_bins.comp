@@ -11,7 +11,7 @@ void main() {
   uint first = bins[bin_count].count;  // behind those found
   for (uint i = 0u; i <= bin_count; ++i) {
     uint count = bins[i].count;
-    uint groups = (count + ENSEMBLE_LIST_GROUP - 1u) / ENSEMBLE_LIST_GROUP;
+    uint groups = (count + ENSEMBLE_GROUP_PIXELS - 1u) / ENSEMBLE_GROUP_PIXELS;
     bins[i].first = i < bin_count ? first : 0u;
     bins[i].cursor = first;
     bins[i].groups_x = min(groups, ENSEMBLE_RASTER_GROUPS_X);

@@ -1,11 +1,14 @@
 // Shades listed pixels of the compute rasteriser into the linear picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/raster_types.h"
 #include "shaders/shared/vertex.h"
 #include "shaders/raster_sets.glsl"
 #include "shaders/raster_pixels.glsl"
 #include "shaders/raster_surface.glsl"
+layout(constant_id = ENSEMBLE_CONSTANT_SHADOWS) const bool kShadows = true;
+#define HAS_SHADOWS kShadows
 #include "shaders/lighting.glsl"
 
 layout(local_size_x = ENSEMBLE_LIST_GROUP) in;
@@ -39,10 +42,7 @@ GpuMaterial readMaterial(uint number) {
   return m;
 }
 
-void main() {
-  uvec2 listed;
-  bool is_there = listedPixel(listed);
-  if (!is_there) return;
+void shade(uvec4 listed) {
   Surface s = surfaceAt(listed, kTextured);
   GpuMaterial material = readMaterial(s.item_1.x);
   vec4 color = material.base_color;
@@ -62,3 +62,5 @@ void main() {
     }
   }
 }
+
+void main() { FOR_LISTED_PIXELS(shade); }

@@ -1,9 +1,11 @@
 // Lists what shows of the compute rasteriser, one sample a pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/raster_types.h"
 #include "shaders/raster_sets.glsl"
 #include "shaders/raster_pixels.glsl"
+#include "shaders/raster_counters.glsl"
 
 layout(local_size_x = ENSEMBLE_LIST_GROUP) in;
 

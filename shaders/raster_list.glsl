@@ -5,10 +5,11 @@ void listSamples(uint pixel, uvec2 key, uint samples) {
   uvec4 person = texelFetch(who, int(id >> face_bits));
   uvec3 item = itemOfFace(person.x, id & ((1u << face_bits) - 1u));
   uvec4 first = texelFetch(items, int(item.x * ENSEMBLE_RASTER_ITEM_TEXELS));
-  uint of_bin = first.w + (poseOf(person, item, first.z) >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
-  atomicAdd(bins[of_bin].count, 1u);
-  pixels[atomicAdd(bins[bin_count].count, 1u)] =
-      uvec2(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item.x | of_bin << ENSEMBLE_LISTED_ITEM_BITS);
+  uint pose = poseOf(person, item, first.z);
+  uint of_bin = first.w + (pose >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
+  addToBin(of_bin);
+  pixels[addToAll()] = uvec4(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item.x | of_bin << ENSEMBLE_LISTED_ITEM_BITS,
+                             id - item.y, pose & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u));
 }
 
 // At equal depth people come before ground and environment.
@@ -18,14 +19,14 @@ bool isInFront(uint pixel, int number, uvec2 key) {
 
 void listPixel(uint pixel) {
   if (kSamples == 1) {
-    uvec2 key = visible[pixel];
+    uvec2 key = texelFetch(seen, int(pixel)).xy;
     if (isInFront(pixel, 0, key)) listSamples(pixel, key, 1u);
     return;
   }
   uvec2 keys[4];
   uint open = 0u;
   for (int i = 0; i < 4; ++i) {
-    keys[i] = visible[4u * pixel + i];
+    keys[i] = texelFetch(seen, int(4u * pixel) + i).xy;
     if (isInFront(pixel, i, keys[i])) open |= 1u << i;
   }
   while (open != 0u) {
@@ -37,7 +38,22 @@ void listPixel(uint pixel) {
   }
 }
 
+// Whether somebody is at a pixel of the band, in front or not.
+bool isSeen(uint number) {
+  int sample_0 = int((first_pixel + number) * kSamples);
+  uint depths = texelFetch(seen, sample_0).y;
+  if (kSamples > 1) depths |= texelFetch(seen, sample_0 + 1).y | texelFetch(seen, sample_0 + 2).y | texelFetch(seen, sample_0 + 3).y;
+  return depths != 0u;
+}
+
+// Where shaders run on the CPU all lanes do what one has to do: hence each goes on to its next pixel that has
+// something to do.
 void main() {
-  uint number = (gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x) * ENSEMBLE_LIST_GROUP + gl_LocalInvocationID.x;
-  if (number < pixel_count) listPixel(first_pixel + number);
+  uint number = firstPixelOfInvocation(), end = min(number + ENSEMBLE_GROUP_PIXELS, pixel_count);
+  [[dont_unroll]] for (;;) {
+    [[dont_unroll]] while (number < end && !isSeen(number)) number += ENSEMBLE_LIST_GROUP;
+    if (number >= end) break;
+    listPixel(first_pixel + number);
+    number += ENSEMBLE_LIST_GROUP;
+  }
 }

@@ -1,8 +1,5 @@
-// What a pixel of the compute rasteriser shows: person, item and triangle, and where in the triangle. Included
-// after raster_sets.glsl.
-layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) readonly buffer Visible {
-  uvec2 visible[];  // of each sample: id, inverted; depth
-};
+// What the pixels of the compute rasteriser show. Included after raster_sets.glsl.
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_SEEN) uniform usamplerBuffer seen;  // of each sample: id, inverted; depth
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_VERTICES) uniform usamplerBuffer vertices;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ITEMS) uniform usamplerBuffer items;
 // Per combination: where its items begin below, and how many they are. Then per combination and item: the item
@@ -10,8 +7,11 @@ layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ITEMS) unifo
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_SHOWN) uniform usamplerBuffer shown;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_POSE_TABLE) uniform usamplerBuffer pose_table;
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_PIXELS, std430) buffer Pixels {
-  uvec2 pixels[];  // pixel and samples; item and bin. First those found, then the same sorted by bin
+  // Pixel and samples; item and bin; person and triangle of the item, as in an id; first vertex of its pose.
+  // First those found, then the same sorted by bin.
+  uvec4 pixels[];
 };
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_LISTED) uniform usamplerBuffer listed_pixels;  // the same
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_BINS, std430) buffer Bins {
   GpuRasterBin bins[];  // the last is of all
 };

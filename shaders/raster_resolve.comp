@@ -1,6 +1,7 @@
 // The mean of a pixel's samples, where one at least was shaded here; the others are as the pipeline drew them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/raster_types.h"
 #include "shaders/raster_sets.glsl"
 
@@ -16,9 +17,7 @@ layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_SHADED, std4
 };
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_PICTURE, rgba16f) uniform writeonly image2D picture;
 
-void main() {
-  uint number = (gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x) * ENSEMBLE_LIST_GROUP + gl_LocalInvocationID.x;
-  if (number >= pixel_count) return;
+void resolve(uint number) {
   uint pixel = first_pixel + number;
   ivec2 at = ivec2(pixel % width, pixel / width);
   vec4 sum = vec4(0.0);
@@ -31,4 +30,9 @@ void main() {
     any_shaded = any_shaded || is_shaded;
   }
   if (any_shaded) imageStore(picture, at, 0.25 * sum);
+}
+
+void main() {
+  uint first = firstPixelOfInvocation(), end = min(first + ENSEMBLE_GROUP_PIXELS, pixel_count);
+  [[dont_unroll]] for (uint number = first; number < end; number += ENSEMBLE_LIST_GROUP) resolve(number);
 }

@@ -3,10 +3,10 @@ struct Surface {
   uint pixel;
   uint samples;  // bits
   uvec4 person;  // GpuRasterWho
-  uvec4 item_0, item_1, item_2;
+  uvec4 item_0, item_1;
   uint triangle;      // of the item
   uint first_vertex;  // of the triangle, texels
-  float depth;
+  float depth;  // metres along the view axis
   vec3 world;
   vec3 normal;  // world space, towards the viewer's side of a front face; not of unit length
   bool is_front;
@@ -47,36 +47,29 @@ vec2 vertexUv(uint vertex) {
   return uintBitsToFloat(texelFetch(vertices, int(vertex * 5u + 2u)).xy);
 }
 
-Surface surfaceAt(uvec2 listed, bool textured) {
+Surface surfaceAt(uvec4 listed, bool textured) {
   Surface s;
   s.pixel = listed.x & ((1u << ENSEMBLE_LISTED_PIXEL_BITS) - 1u);
   s.samples = listed.x >> ENSEMBLE_LISTED_PIXEL_BITS;
-  uvec2 key = visible[kSamples == 1 ? s.pixel : 4u * s.pixel + findLSB(s.samples)];
-  s.depth = uintBitsToFloat(key.y);
-  uint id = ~key.x;
-  s.person = texelFetch(who, int(id >> face_bits));
-  uint item = listed.y & ((1u << ENSEMBLE_LISTED_ITEM_BITS) - 1u);
-  int item_texel = int(item * ENSEMBLE_RASTER_ITEM_TEXELS);
+  int rank = int(listed.z >> face_bits), person = rank * ENSEMBLE_PERSON_TEXELS;
+  s.person = texelFetch(who, rank);
+  int item_texel = int((listed.y & ((1u << ENSEMBLE_LISTED_ITEM_BITS) - 1u)) * ENSEMBLE_RASTER_ITEM_TEXELS);
   s.item_0 = texelFetch(items, item_texel);
   s.item_1 = texelFetch(items, item_texel + 1);
-  s.item_2 = texelFetch(items, item_texel + 2);
-  uint face = id & ((1u << face_bits) - 1u);
-  uvec3 shown_item = itemOfFace(s.person.x, face);
-  s.triangle = face - shown_item.y;
+  s.triangle = listed.z & ((1u << face_bits) - 1u);
 
-  uint pose = poseOf(s.person, shown_item, s.item_0.z) & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u);
-  int corner = int(s.item_0.x + 3u * s.triangle);
-  uvec3 index = uvec3(texelFetch(indices, corner).x, texelFetch(indices, corner + 1).x, texelFetch(indices, corner + 2).x);
+  uint pose = listed.w;
+  uvec3 index = cornersAt(s.item_0.x + 3u * s.triangle);
   uvec2 kept_a = texelFetch(poses, int(pose + index.x)).xy;
   uvec2 kept_b = texelFetch(poses, int(pose + index.y)).xy;
   uvec2 kept_c = texelFetch(poses, int(pose + index.z)).xy;
   vec3 a = keptPosition(kept_a), b = keptPosition(kept_b), c = keptPosition(kept_c);
-  int person = int(id >> face_bits) * ENSEMBLE_PERSON_TEXELS;
   vec3 on_a = cornerOnScreen(person, a), on_b = cornerOnScreen(person, b), on_c = cornerOnScreen(person, c);
   vec2 at = vec2(float(s.pixel % width), float(s.pixel / width)) * kPixel;
   vec3 shares = sharesAt(on_a, on_b, on_c, at);
   s.is_front = shares.x + shares.y + shares.z < 0.0;
   vec3 part = unitShares(shares);
+  s.depth = dot(part, vec3(on_a.z, on_b.z, on_c.z));
 
   vec4 place = vec4(a * part.x + b * part.y + c * part.z, 1.0);
   vec3 n = keptNormal(kept_a) * part.x + keptNormal(kept_b) * part.y + keptNormal(kept_c) * part.z;
@@ -96,9 +89,9 @@ Surface surfaceAt(uvec2 listed, bool textured) {
   return s;
 }
 
-// The listed pixel that this invocation is for, or none. @return whether there is one
-bool listedPixel(out uvec2 listed) {
-  uint number = (gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x) * ENSEMBLE_LIST_GROUP + gl_LocalInvocationID.x;
-  listed = pixels[bins[bin].first + min(number, max(bins[bin].count, 1u) - 1u)];
-  return number < bins[bin].count;
-}
+// Calls shade(listed) for the pixels of `bin` that an invocation is for.
+#define FOR_LISTED_PIXELS(shade)                                                                                 \
+  uint first = bins[bin].first + firstPixelOfInvocation();                                                       \
+  uint end = min(first + ENSEMBLE_GROUP_PIXELS, bins[bin].first + bins[bin].count);                              \
+  [[dont_unroll]] for (uint number = first; number < end; number += ENSEMBLE_LIST_GROUP) \
+    shade(texelFetch(listed_pixels, int(number)))

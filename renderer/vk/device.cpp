@@ -31,6 +31,10 @@ bool hasValidationLayer(const vk::raii::Context& context) {
   });
 }
 
+bool countsTime(const vk::raii::PhysicalDevice& device, std::uint32_t family) {
+  return device.getQueueFamilyProperties()[family].timestampValidBits == 64;
+}
+
 std::optional<std::uint32_t> graphicsQueueFamily(const vk::raii::PhysicalDevice& device) {
   constexpr auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
   const auto families = device.getQueueFamilyProperties();
@@ -68,7 +72,8 @@ bool canRasteriseOn(const vk::raii::PhysicalDevice& device) {
   const auto properties =
       device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
   const auto& subgroup = properties.get<vk::PhysicalDeviceSubgroupProperties>();
-  constexpr auto wanted = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eShuffle;
+  constexpr auto wanted = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eShuffle |
+                          vk::SubgroupFeatureFlagBits::eBallot;
   return features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
          features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics &&
          (subgroup.supportedOperations & wanted) == wanted &&
@@ -202,6 +207,7 @@ void Device::choosePhysicalDevice() {
   properties_ = physical_.getProperties();
   memory_ = physical_.getMemoryProperties();
   queue_family_ = *graphicsQueueFamily(physical_);
+  has_timestamps_ = countsTime(physical_, queue_family_);
   can_rasterise_ = canRasteriseOn(physical_);
   subgroup_size_ =
       physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()

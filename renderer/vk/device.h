@@ -46,8 +46,9 @@ class Device {
   std::uint32_t queueFamily() const { return queue_family_; }
   std::string name() const { return properties_.deviceName; }
   bool hasPipelineStatistics() const { return features_.pipelineStatisticsQuery; }
-  /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers and shuffles in
-  /// subgroups.
+  bool hasTimestamps() const { return has_timestamps_; }
+  /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers, shuffles and ballots
+  /// in subgroups.
   bool canRasterise() const { return can_rasterise_; }
   std::uint32_t subgroupSize() const { return subgroup_size_; }
   std::vector<std::string> validationMessages() const { return log_.messages(); }
@@ -78,6 +79,7 @@ class Device {
   vk::PhysicalDeviceFeatures features_;
   vk::PhysicalDeviceMemoryProperties memory_;
   std::uint32_t queue_family_ = 0;
+  bool has_timestamps_ = false;
   bool can_rasterise_ = false;
   std::uint32_t subgroup_size_ = 1;
   vk::raii::Device device_ = nullptr;

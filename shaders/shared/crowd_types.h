@@ -59,7 +59,9 @@
 // Groups along x of the pose pass's dispatch.
 #define ENSEMBLE_POSE_GROUPS_X 1024
 
-#define ENSEMBLE_POST_GROUP 8
+// Pixels side by side, and rows, of a group of the post pass.
+#define ENSEMBLE_POST_GROUP 64
+#define ENSEMBLE_POST_ROWS 16
 
 // On the device a vertex's first joint has the number of its garment part in the bits from here on.
 #define ENSEMBLE_JOINT_BITS 13

@@ -31,6 +31,9 @@
 // With several samples: their colours as the graphics pipeline drew them, and as shaded here.
 #define ENSEMBLE_BINDING_RASTER_DRAWN 18
 #define ENSEMBLE_BINDING_RASTER_SHADED 19
+// The target and the list of pixels again, for passes that only read them.
+#define ENSEMBLE_BINDING_RASTER_SEEN 20
+#define ENSEMBLE_BINDING_RASTER_LISTED 21
 
 // The pass that skins poses has a set of its own.
 #define ENSEMBLE_BINDING_SKIN_JOBS 0
@@ -45,6 +48,7 @@
 #define ENSEMBLE_CONSTANT_LANES 3
 #define ENSEMBLE_CONSTANT_TO_SUN 4
 #define ENSEMBLE_CONSTANT_SAMPLES 5
+#define ENSEMBLE_CONSTANT_SHADOWS 6
 // Of the pass that skins poses: people's own, from the palette, instead of those at key frames.
 #define ENSEMBLE_CONSTANT_OWN_POSES 0
 
@@ -54,9 +58,12 @@
 #define ENSEMBLE_RASTER_RUN 16u
 // Vertices that a group skins.
 #define ENSEMBLE_SKIN_GROUP 64
-// Pixels that a group looks through.
+// Passes over pixels: invocations of a group, and pixels of an invocation, a group apart. Where shaders run
+// on the CPU an invocation costs as much to begin as a simple pixel.
 #define ENSEMBLE_LIST_GROUP 64
-// Pixels that are listed and shaded at a time.
+#define ENSEMBLE_LIST_RUN 16
+#define ENSEMBLE_GROUP_PIXELS (ENSEMBLE_LIST_GROUP * ENSEMBLE_LIST_RUN)
+// Samples that are listed and shaded at a time.
 #define ENSEMBLE_RASTER_BAND (1u << 20)
 // In a listed pixel: its number in the target, and which of its samples it is for.
 #define ENSEMBLE_LISTED_PIXEL_BITS 28
@@ -77,7 +84,7 @@
 // Texels of a person in the table of people: rows to the screen, then rows to the world.
 #define ENSEMBLE_PERSON_TEXELS 6
 // Texels of an item in the table of items.
-#define ENSEMBLE_RASTER_ITEM_TEXELS 3
+#define ENSEMBLE_RASTER_ITEM_TEXELS 2
 
 #ifdef __cplusplus
 namespace ensemble {
@@ -98,7 +105,7 @@ struct GpuRasterWho {
   uint number;  ///< in the whole crowd
 };
 
-/// A sub-mesh as the compute rasteriser draws it; three texels.
+/// A sub-mesh as the compute rasteriser draws it; two texels.
 struct GpuRasterItem {
   uint first_index;
   uint first_vertex;  ///< of its mesh, in its buffer
@@ -108,7 +115,6 @@ struct GpuRasterItem {
   uint region;
   uint first_face;
   uint face_offset;
-  uint unused[4];
 };
 
 /// One index list in one pose, and the people who show it so.
@@ -159,7 +165,7 @@ struct GpuRasterBin {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuRasterPerson) == 96 && sizeof(GpuRasterWho) == 16 && sizeof(GpuRasterItem) == 48);
+static_assert(sizeof(GpuRasterPerson) == 96 && sizeof(GpuRasterWho) == 16 && sizeof(GpuRasterItem) == 32);
 static_assert(sizeof(GpuRasterPerson) == 16 * ENSEMBLE_PERSON_TEXELS);
 static_assert(sizeof(GpuRasterItem) == 16 * ENSEMBLE_RASTER_ITEM_TEXELS);
 static_assert(sizeof(GpuRasterWork) == 36 && sizeof(GpuRasterGroup) == 8);

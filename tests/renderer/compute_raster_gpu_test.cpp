@@ -186,6 +186,22 @@ TEST_P(BothRasterisers, DrawNaiveAndCutOuts) {
   }
 }
 
+TEST_F(ComputeRasterTest, TheDeviceTellsHowLongEachPartTakes) {
+  for (const RasterKind raster : {RasterKind::kPipeline, RasterKind::kCompute}) {
+    const Scene scene = crowdScene(raster);
+    const FrameStats stats = drawScene(scene, viewOf(scene)).stats;
+    double sum = 0.0;
+    for (const double part : stats.parts_ms) {
+      EXPECT_GE(part, 0.0);
+      sum += part;
+    }
+    EXPECT_GT(sum, 0.0);
+    EXPECT_LE(sum, stats.frame_ms);
+    const auto part = [&](FramePart of) { return stats.parts_ms[static_cast<std::size_t>(of)]; };
+    EXPECT_GT(part(raster == RasterKind::kCompute ? FramePart::kRaster : FramePart::kPipeline), 0.0);
+  }
+}
+
 TEST_F(ComputeRasterTest, SmallestPictureAndNobodyInSight) {
   Scene scene = crowdScene(RasterKind::kCompute);
   View view = viewWithAovs(scene);
