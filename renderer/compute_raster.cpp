@@ -220,7 +220,6 @@ void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState&
   const std::span<GpuRasterPerson> all_rows = work.rows.mapped<GpuRasterPerson>();
   const std::span<GpuRasterWho> all_who = work.who.mapped<GpuRasterWho>();
   const KeyFrames& frames = state.keyFrames();
-  constexpr vec4 kWorldFromWorld[3] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const GpuCharacter& character = state.characters()[numbers[i]];
     std::uint32_t pose = work.people[i].key;
@@ -230,7 +229,8 @@ void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState&
     } else {
       const PlanPose& own = work.own[pose - frames.keys.size()].pose;
       pose = ENSEMBLE_OWN_POSE | own.buffer << ENSEMBLE_POSE_OFFSET_BITS | own.first_vertex;
-      all_rows[i] = makeRasterPerson(rows, kWorldFromWorld, poses_.ownBox(numbers[i]));
+      const PosePool::OwnPlace place = poses_.ownPlace(numbers[i]);
+      all_rows[i] = makeRasterPerson(rows, place.world_from_box, place.box);
     }
     all_who[i] = {character.combination, pose, character.tint_seed, character.number};
   }

@@ -144,7 +144,7 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
   longest_edges_.resize(state.characterCount(), 0.0f);
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
   for (std::vector<std::uint32_t>* list :
-       {&visible_, &casters_, &near_, &computed_, &near_casters_, &computed_casters_, &exact_})
+       {&visible_, &casters_, &near_, &computed_, &near_casters_, &computed_casters_, &skinned_})
     list->reserve(state.characterCount());
   if (environment_) {
     environment_pass_ = std::make_unique<EnvironmentPass>(device, layout_, *environment_);
@@ -306,11 +306,12 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
 
 std::uint32_t FrameLoop::queuePoses(const std::vector<std::uint32_t>& drawn,
                                     const std::vector<std::uint32_t>& computed) {
-  exact_.clear();
+  skinned_.clear();
   for (const std::uint32_t person : computed) {
-    if (shown_.key(person) == ViewPeople::kExact) exact_.push_back(person);
+    if (shown_.key(person) == ViewPeople::kExact && PosePool::needsPalette(state_, person))
+      skinned_.push_back(person);
   }
-  return state_.queuePoses(drawn, shown_) + state_.queuePoses(exact_, shown_);
+  return state_.queuePoses(drawn, shown_) + state_.queuePoses(skinned_, shown_);
 }
 
 void FrameLoop::prepareCompute(const View& view, Slot& slot) {

@@ -59,7 +59,7 @@ class FrameLoop {
   bool mayCompute(const TargetSize& size) const { return compute_ && compute_->fits(size); }
   void buildQueues(const View& view, const Tile& tile);
   void buildShadowQueues(const View& view, const ShadowFit& fit);
-  /// Queues the palettes of those whom the pipeline draws and of those whom compute draws between key frames.
+  /// Queues the palettes of those whom the pipeline draws and of those whom compute skins by them.
   std::uint32_t queuePoses(const std::vector<std::uint32_t>& drawn,
                            const std::vector<std::uint32_t>& computed);
   void prepareCompute(const View& view, Slot& slot);
@@ -98,7 +98,7 @@ class FrameLoop {
   ViewPeople shown_;
   std::vector<float> longest_edges_;              // per person
   std::vector<std::uint32_t> visible_, casters_;  // all of them; the rest are parts of these
-  std::vector<std::uint32_t> near_, computed_, near_casters_, computed_casters_, exact_;
+  std::vector<std::uint32_t> near_, computed_, near_casters_, computed_casters_, skinned_;
   std::vector<std::uint32_t> first_of_chunk_;  // per chunk of people: the number of its first
 };
 

@@ -18,7 +18,7 @@ struct PassStats {
 struct PoseStats {
   std::uint64_t kept = 0;              ///< meshes at key frames that were drawn: kept from an earlier frame
   std::uint64_t skinned = 0;           ///< the others
-  std::uint64_t own = 0;               ///< people between key frames, skinned for this frame
+  std::uint64_t own = 0;               ///< people between key frames, posed for this frame alone
   std::uint64_t skinned_vertices = 0;  ///< of both
   std::uint64_t kept_bytes = 0;        ///< of all that are kept after the frame
 };

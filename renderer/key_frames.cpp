@@ -41,4 +41,14 @@ std::uint32_t nearestKey(const KeyFrames& frames, const GpuCharacter& character)
   return frames.first_of_clip[clip] + std::min(key, last);
 }
 
+std::optional<BetweenKeys> betweenKeys(const KeyFrames& frames, const GpuCharacter& character) {
+  const bool holds_feet = character.feet[0].w > 0.0f || character.feet[1].w > 0.0f;
+  if (character.idle_weight > 0.0f || holds_feet) return std::nullopt;
+  const std::uint32_t last = frames.clips[character.clip].key_count - 1;
+  const float at = character.phase * static_cast<float>(last);
+  const std::uint32_t key = std::min(static_cast<std::uint32_t>(at), std::max(last, 1u) - 1u);
+  const std::uint32_t first = frames.first_of_clip[character.clip];
+  return BetweenKeys{first + key, first + std::min(key + 1, last), at - static_cast<float>(key)};
+}
+
 }  // namespace ensemble

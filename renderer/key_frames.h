@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "renderer/animation.h"
@@ -38,5 +39,15 @@ KeyFrames numberKeyFrames(const Animation& animation);
 
 /// The key in which somebody is nearest to what is played: of the clip that weighs more.
 std::uint32_t nearestKey(const KeyFrames& frames, const GpuCharacter& character);
+
+/// Two keys of a clip, and how far somebody is from the one to the other.
+struct BetweenKeys {
+  std::uint32_t before = 0, after = 0;
+  float part = 0.0f;  ///< 0 .. 1
+};
+
+/// The keys that somebody is between, where mixing the meshes at these two is all there is to its pose: one
+/// clip plays, and no foot is held. As pose.comp mixes matrices; skinned vertices are linear in them.
+std::optional<BetweenKeys> betweenKeys(const KeyFrames& frames, const GpuCharacter& character);
 
 }  // namespace ensemble

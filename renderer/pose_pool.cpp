@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/input_error.h"
+#include "spirv/mix_poses.comp.h"
 #include "spirv/skin_pose.comp.h"
 
 namespace ensemble {
@@ -23,6 +24,11 @@ constexpr std::initializer_list<vk::DescriptorType> kSkinBindings = {
     vk::DescriptorType::eUniformTexelBuffer, vk::DescriptorType::eStorageBuffer};
 constexpr std::initializer_list<vk::DescriptorType> kMatricesBindings = {
     vk::DescriptorType::eCombinedImageSampler, vk::DescriptorType::eUniformTexelBuffer};
+constexpr std::initializer_list<vk::DescriptorType> kMixBindings = {vk::DescriptorType::eUniformTexelBuffer};
+
+std::uint32_t groupsOf(std::uint32_t vertices) {
+  return (vertices + ENSEMBLE_SKIN_RUN - 1) / ENSEMBLE_SKIN_RUN;
+}
 
 struct Push {
   std::uint32_t first_group, group_count;
@@ -119,14 +125,19 @@ void PosePool::createPipelines() {
                     &sampler_, vk::ImageLayout::eShaderReadOnlyOptimal);
     gpu::writeTexelBuffer(device_, matrices_sets_[i], ENSEMBLE_BINDING_SKIN_PALETTE, chunks[i].palette_view);
   }
+  mix_layout_ = gpu::makeSetLayout(device_, kMixBindings, vk::ShaderStageFlagBits::eCompute);
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(Push)};
-  const std::array<vk::DescriptorSetLayout, 2> layouts = {*set_layout_, *matrices_layout_};
-  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
-      device_.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
-                                                     .pSetLayouts = layouts.data(),
-                                                     .pushConstantRangeCount = 1,
-                                                     .pPushConstantRanges = &push}));
+  const auto make_layout = [&](std::initializer_list<vk::DescriptorSetLayout> layouts) {
+    return ENSEMBLE_VK(vk::raii::PipelineLayout(
+        device_.handle(),
+        vk::PipelineLayoutCreateInfo{.setLayoutCount = static_cast<std::uint32_t>(layouts.size()),
+                                     .pSetLayouts = layouts.begin(),
+                                     .pushConstantRangeCount = 1,
+                                     .pPushConstantRanges = &push}));
+  };
+  layout_ = make_layout({*set_layout_, *matrices_layout_});
+  mix_pipeline_layout_ = make_layout({*set_layout_, *mix_layout_, *mix_layout_});
   const auto make = [&](vk::Bool32 own_poses) {
     const vk::SpecializationMapEntry entry{ENSEMBLE_CONSTANT_OWN_POSES, 0, sizeof own_poses};
     const vk::SpecializationInfo info{
@@ -135,6 +146,7 @@ void PosePool::createPipelines() {
   };
   key_pipeline_ = make(false);
   own_pipeline_ = make(true);
+  mix_pipeline_ = gpu::makeComputePipeline(device_, mix_pipeline_layout_, kMixPosesComp);
 }
 
 void PosePool::beginFrame() {
@@ -149,12 +161,9 @@ std::uint32_t PosePool::numberOf(std::vector<std::uint32_t>& numbers, std::uint3
   return numbers[own_number];
 }
 
-void PosePool::addJob(Job job, const DrawMesh& mesh) {
-  job.vertex_chunk = mesh.vertex_chunk;
-  job.gpu.first_vertex = mesh.first_vertex;
-  job.gpu.vertex_count = mesh.vertex_count;
-  group_count_ += (mesh.vertex_count + ENSEMBLE_SKIN_GROUP - 1) / ENSEMBLE_SKIN_GROUP;
-  skinned_vertices_ += mesh.vertex_count;
+void PosePool::addJob(const Job& job) {
+  group_count_ += groupsOf(job.gpu.vertex_count);
+  skinned_vertices_ += job.gpu.vertex_count;
   jobs_.push_back(job);
 }
 
@@ -166,13 +175,14 @@ PlanPose PosePool::require(std::uint32_t mesh, std::uint32_t key) {
   if (kept.is_new) {
     const KeyFrame& frame = state_.keyFrames().keys[key];
     const KeptBox& box = state_.keyFrames().boxes[frame.clip];
-    addJob({.buffer = buffer,
+    addJob({.kind = JobKind::kKey,
+            .buffer = buffer,
+            .from = from.vertex_chunk,
             .gpu = {.box = vec4(box.low, 1.0f / box.step),
-                    .first_vertex = 0,
-                    .vertex_count = 0,
+                    .first_vertex = from.first_vertex,
+                    .vertex_count = from.vertex_count,
                     .pose = kept.first_vertex,
-                    .first_matrix = frame.first_matrix}},
-           from);
+                    .first_matrix = frame.first_matrix}});
     table_.mapped<std::uint32_t>()[pose] = buffer << ENSEMBLE_POSE_OFFSET_BITS | kept.first_vertex;
   }
   return {buffer, kept.first_vertex};
@@ -183,20 +193,54 @@ PlanPose PosePool::requireOwn(std::uint32_t person) {
   const OwnPose own = own_.require(person, std::max(ownVertexCount(combination), 1u));
   const std::uint32_t buffer = numberOf(numbers_of_own_, own.buffer, buffer_count_);
   if (own.is_new) {
-    const KeptBox box = ownBox(person);
+    const std::optional<BetweenKeys> keys = betweenKeys(state_.keyFrames(), state_.characters()[person]);
     for (const WornMesh& worn : worn_[combination]) {
-      addJob({.is_own = true,
-              .people_chunk = state_.chunkOf(person),
-              .buffer = buffer,
-              .gpu = {.box = vec4(box.low, 1.0f / box.step),
-                      .first_vertex = 0,
-                      .vertex_count = 0,
-                      .pose = own.first_vertex + worn.first_vertex,
-                      .first_matrix = state_.characters()[person].first_joint}},
-             assets_.meshes()[worn.mesh]);
+      const std::uint32_t first_vertex = own.first_vertex + worn.first_vertex;
+      if (keys) {
+        mixOwn(*keys, worn.mesh, buffer, first_vertex);
+      } else {
+        skinOwn(person, worn.mesh, buffer, first_vertex);
+      }
     }
   }
   return {buffer, own.first_vertex};
+}
+
+void PosePool::mixOwn(const BetweenKeys& keys, std::uint32_t mesh, std::uint32_t buffer,
+                      std::uint32_t first_vertex) {
+  const PlanPose before = require(mesh, keys.before), after = require(mesh, keys.after);
+  addJob({.kind = JobKind::kMix,
+          .buffer = buffer,
+          .from = before.buffer,
+          .and_from = after.buffer,
+          .gpu = {.box = vec4(keys.part, 0.0f, 0.0f, 0.0f),
+                  .first_vertex = before.first_vertex,
+                  .vertex_count = assets_.meshes()[mesh].vertex_count,
+                  .pose = first_vertex,
+                  .first_matrix = after.first_vertex}});
+}
+
+void PosePool::skinOwn(std::uint32_t person, std::uint32_t mesh, std::uint32_t buffer,
+                       std::uint32_t first_vertex) {
+  const KeptBox box = ownPlace(person).box;
+  const DrawMesh& from = assets_.meshes()[mesh];
+  addJob({.kind = JobKind::kPalette,
+          .buffer = buffer,
+          .from = from.vertex_chunk,
+          .and_from = state_.chunkOf(person),
+          .gpu = {.box = vec4(box.low, 1.0f / box.step),
+                  .first_vertex = from.first_vertex,
+                  .vertex_count = from.vertex_count,
+                  .pose = first_vertex,
+                  .first_matrix = state_.characters()[person].first_joint}});
+}
+
+PosePool::OwnPlace PosePool::ownPlace(std::uint32_t person) const {
+  const GpuCharacter& character = state_.characters()[person];
+  if (needsPalette(state_, person))
+    return {keptBoxAround(state_.bounds()[person]), {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  const vec4(&rows)[3] = character.world_from_model;
+  return {state_.keyFrames().boxes[character.clip], {rows[0], rows[1], rows[2]}};
 }
 
 bool PosePool::prepare() {
@@ -218,6 +262,8 @@ bool PosePool::prepare() {
     buffer.texels = buffer.vertices.makeTexelView(device_, vk::Format::eR32G32Uint);
     buffer.skin_sets = gpu::DescriptorSets(device_, set_layout_, kSkinBindings,
                                            static_cast<std::uint32_t>(assets_.vertexChunkCount()));
+    buffer.mix_set = gpu::DescriptorSets(device_, mix_layout_, kMixBindings, 1);
+    gpu::writeTexelBuffer(device_, buffer.mix_set[0], ENSEMBLE_BINDING_MIX_POSES, buffer.texels);
     for (std::uint32_t c = 0; c < assets_.vertexChunkCount(); ++c) {
       const vk::DescriptorSet set = buffer.skin_sets[c];
       gpu::writeTexelBuffer(device_, set, ENSEMBLE_BINDING_SKIN_VERTICES, assets_.vertexChunk(c).texels);
@@ -249,15 +295,19 @@ void PosePool::record(const vk::raii::CommandBuffer& commands) {
   if (jobs_.empty()) return;
   std::sort(jobs_.begin(), jobs_.end(), [](const Job& a, const Job& b) { return a.place() < b.place(); });
   gpu::recordBarrier(commands, Stage::eComputeShader, {}, Stage::eComputeShader, {});
+  const auto finish = [&] {
+    gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
+                       Stage::eComputeShader, vk::AccessFlagBits2::eShaderSampledRead);
+  };
   std::uint32_t group = 0;
   for (std::size_t first = 0, end = 0; first < jobs_.size(); first = end) {
+    if (first > 0 && jobs_[first - 1].kind == JobKind::kKey && jobs_[first].kind != JobKind::kKey) finish();
     while (end < jobs_.size() && jobs_[end].place() == jobs_[first].place()) ++end;
     recordJobs(commands, first, end, group);
   }
   jobs_.clear();
   group_count_ = 0;
-  gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
-                     Stage::eComputeShader, vk::AccessFlagBits2::eShaderSampledRead);
+  finish();
 }
 
 /// Jobs of one place, in one dispatch. @param group the next free; moves on
@@ -268,16 +318,23 @@ void PosePool::recordJobs(const vk::raii::CommandBuffer& commands, std::size_t f
   Push push{group, 0};
   for (std::size_t job = first; job < end; ++job) {
     jobs[job] = jobs_[job].gpu;
-    for (std::uint32_t v = 0; v < jobs_[job].gpu.vertex_count; v += ENSEMBLE_SKIN_GROUP)
+    for (std::uint32_t v = 0; v < jobs_[job].gpu.vertex_count; v += ENSEMBLE_SKIN_RUN)
       groups[group++] = {static_cast<std::uint32_t>(job), v};
   }
   push.group_count = group - push.first_group;
   const Job& any = jobs_[first];
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, any.is_own ? *own_pipeline_ : *key_pipeline_);
-  const std::array<vk::DescriptorSet, 2> sets = {buffers_[any.buffer].skin_sets[any.vertex_chunk],
-                                                 matrices_sets_[any.people_chunk]};
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets, nullptr);
-  commands.pushConstants<Push>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  const PoseBuffer& buffer = buffers_[any.buffer];
+  const bool mixes = any.kind == JobKind::kMix;
+  const vk::raii::Pipeline& skin = any.kind == JobKind::kKey ? key_pipeline_ : own_pipeline_;
+  const vk::PipelineLayout layout = mixes ? *mix_pipeline_layout_ : *layout_;
+  const std::array<vk::DescriptorSet, 3> sets = {
+      buffer.skin_sets[mixes ? 0 : any.from],
+      mixes ? buffers_[any.from].mix_set[0] : matrices_sets_[any.and_from],
+      mixes ? buffers_[any.and_from].mix_set[0] : vk::DescriptorSet()};
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, mixes ? *mix_pipeline_ : *skin);
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0,
+                              vk::ArrayProxy<const vk::DescriptorSet>(mixes ? 3 : 2, sets.data()), nullptr);
+  commands.pushConstants<Push>(layout, vk::ShaderStageFlagBits::eCompute, 0, push);
   gpu::recordDispatch(commands, push.group_count, ENSEMBLE_RASTER_GROUPS_X);
 }
 

@@ -1,5 +1,6 @@
 // Skinned vertices on the device, for the compute rasteriser: of meshes at key frames, made when first asked
-// for and kept (pose cache), and of people between key frames, for one frame.
+// for and kept (pose cache), and of people between key frames, for one frame: mixed from two kept poses where
+// that is all that their pose takes, else skinned by their palette.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@ class PosePool {
     gpu::Buffer vertices;  ///< two 32-bit words each (raster_types.h)
     vk::raii::BufferView texels = nullptr;
     gpu::DescriptorSets skin_sets;  ///< per chunk of vertices
+    gpu::DescriptorSets mix_set;    ///< to read it when poses are mixed
   };
 
   /// What it refers to must outlive it. @param budget_bytes kept from frame to frame
@@ -31,12 +33,19 @@ class PosePool {
   /// Where a mesh's vertices at a key are, or will be after the next record().
   PlanPose require(std::uint32_t mesh, std::uint32_t key);
   /// Where somebody's own vertices are, or will be: those of all meshes that it wears, one behind the other.
-  /// The device must have its palette by then, from CrowdState.
   PlanPose requireOwn(std::uint32_t person);
+  /// Whether the device must have somebody's palette by then, from CrowdState.
+  static bool needsPalette(const CrowdState& state, std::uint32_t person) {
+    return !betweenKeys(state.keyFrames(), state.characters()[person]);
+  }
   /// Where a mesh begins among the own vertices of who wears a combination. @pre the combination shows it
   std::uint32_t firstOwnVertex(std::uint32_t combination, std::uint32_t mesh) const;
-  /// The box, in the world, that somebody's own vertices are kept in.
-  KeptBox ownBox(std::uint32_t person) const { return keptBoxAround(state_.bounds()[person]); }
+  /// The box that somebody's own vertices are kept in, and rows from there to the world.
+  struct OwnPlace {
+    KeptBox box;
+    vec4 world_from_box[3];
+  };
+  OwnPlace ownPlace(std::uint32_t person) const;
 
   /// Makes buffers for what was required; returns whether there are new ones. @throws SystemError if they
   /// don't fit
@@ -53,12 +62,13 @@ class PosePool {
   std::uint64_t skinnedVertices() const { return skinned_vertices_; }  ///< since beginFrame
 
  private:
+  enum class JobKind : std::uint8_t { kKey, kMix, kPalette };  ///< in the order in which they are done
   struct Job {
-    bool is_own = false;
-    std::uint32_t people_chunk = 0;  ///< of whose palette it is, if it is somebody's own
-    std::uint32_t vertex_chunk = 0, buffer = 0;
+    JobKind kind = JobKind::kKey;
+    std::uint32_t buffer = 0;
+    std::uint32_t from = 0, and_from = 0;  ///< chunk of vertices, and of people; mixed: buffers of both poses
     GpuSkinJob gpu{};
-    auto place() const { return std::tie(is_own, people_chunk, buffer, vertex_chunk); }
+    auto place() const { return std::tie(kind, buffer, from, and_from); }
   };
   /// A mesh among the own vertices of who wears a combination.
   struct WornMesh {
@@ -69,7 +79,9 @@ class PosePool {
   std::uint32_t chooseBufferVertices(std::uint64_t max_buffer_bytes) const;
   void numberPoses();
   void createPipelines();
-  void addJob(Job job, const DrawMesh& mesh);
+  void addJob(const Job& job);
+  void mixOwn(const BetweenKeys& keys, std::uint32_t mesh, std::uint32_t buffer, std::uint32_t first_vertex);
+  void skinOwn(std::uint32_t person, std::uint32_t mesh, std::uint32_t buffer, std::uint32_t first_vertex);
   static std::uint32_t numberOf(std::vector<std::uint32_t>& numbers, std::uint32_t own_number,
                                 std::uint32_t& count);
   void makeRoomForJobs();
@@ -94,10 +106,10 @@ class PosePool {
   std::uint64_t group_count_ = 0, skinned_vertices_ = 0;
   gpu::Buffer gpu_jobs_, gpu_groups_;
   vk::raii::Sampler sampler_ = nullptr;
-  vk::raii::DescriptorSetLayout set_layout_ = nullptr, matrices_layout_ = nullptr;
+  vk::raii::DescriptorSetLayout set_layout_ = nullptr, matrices_layout_ = nullptr, mix_layout_ = nullptr;
   gpu::DescriptorSets matrices_sets_;  // per chunk of people
-  vk::raii::PipelineLayout layout_ = nullptr;
-  vk::raii::Pipeline key_pipeline_ = nullptr, own_pipeline_ = nullptr;
+  vk::raii::PipelineLayout layout_ = nullptr, mix_pipeline_layout_ = nullptr;
+  vk::raii::Pipeline key_pipeline_ = nullptr, own_pipeline_ = nullptr, mix_pipeline_ = nullptr;
 };
 
 }  // namespace ensemble

@@ -1,5 +1,8 @@
 // What the compute rasteriser's shaders read. Included after raster_types.h. Texel buffers where lanes read here
 // and there: where shaders run on the CPU they are read faster than storage buffers.
+#include "shaders/shared/vertex.h"
+#include "shaders/kept_vertex.glsl"
+
 layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
 
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_PEOPLE) uniform samplerBuffer people;
@@ -37,10 +40,4 @@ uvec3 cornersAt(uint index) {
   uvec3 from_low = uvec3(words.x & 0xffffu, words.x >> 16, words.y & 0xffffu);
   uvec3 from_high = uvec3(words.x >> 16, words.y & 0xffffu, words.y >> 16);
   return is_wide ? words : (index & 1u) != 0u ? from_high : from_low;
-}
-
-// A position as poses keep it: whole numbers.
-vec3 keptPosition(uvec2 kept) {
-  const uint mask = (1u << ENSEMBLE_POSE_POSITION_BITS) - 1u;
-  return vec3(float(kept.x & mask), float((kept.x >> ENSEMBLE_POSE_POSITION_BITS) & mask), float(kept.y & mask));
 }

@@ -21,13 +21,6 @@ vec3 cornerOnScreen(int person, vec3 kept) {
   return vec3(dot(texelFetch(people, person), p), dot(texelFetch(people, person + 1), p), dot(texelFetch(people, person + 2), p));
 }
 
-vec3 keptNormal(uvec2 kept) {
-  uint n = (kept.x >> 30) | (kept.y >> ENSEMBLE_POSE_POSITION_BITS) << 2;
-  const uint most_x = (1u << ENSEMBLE_POSE_NORMAL_X_BITS) - 1u, most_y = (1u << ENSEMBLE_POSE_NORMAL_Y_BITS) - 1u;
-  vec2 e = vec2(float(n & most_x) / float(most_x), float(n >> ENSEMBLE_POSE_NORMAL_X_BITS) / float(most_y));
-  return decodeOctahedral(e * 2.0 - 1.0);
-}
-
 // Perspective-correct shares of a triangle's corners at a place on the screen, in sub-pixels; and their sign.
 vec3 sharesAt(vec3 a, vec3 b, vec3 c, vec2 at) {
   vec2 p = a.xy - at * a.z, q = b.xy - at * b.z, r = c.xy - at * c.z;

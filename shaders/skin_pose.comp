@@ -2,8 +2,10 @@
 // one person between them, whose joints are in the palette.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/raster_types.h"
 #include "shaders/shared/vertex.h"
+#include "shaders/kept_vertex.glsl"
 
 layout(local_size_x = ENSEMBLE_SKIN_GROUP) in;
 
@@ -23,13 +25,7 @@ vec4 matrixRow(uint matrix, uint row) {
   return texelFetch(animation, ivec2(texel % ENSEMBLE_ANIMATION_WIDTH, texel / ENSEMBLE_ANIMATION_WIDTH), 0);
 }
 
-void main() {
-  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
-  if (number >= group_count) return;
-  GpuSkinGroup group = groups[first_group + number];
-  GpuSkinJob job = jobs[group.job];
-  uint vertex = group.first_vertex + gl_LocalInvocationID.x;
-  if (vertex >= job.vertex_count) return;
+void skin(GpuSkinJob job, uint vertex) {
   int texel = int(job.first_vertex + vertex) * 5;
   uvec2 xy = texelFetch(vertices, texel).xy, zn = texelFetch(vertices, texel + 1).xy;
   uvec2 joints = texelFetch(vertices, texel + 3).xy, weights = texelFetch(vertices, texel + 4).xy;
@@ -45,11 +41,14 @@ void main() {
   }
   vec3 posed = vec3(dot(row[0], position), dot(row[1], position), dot(row[2], position));
   vec3 turned = vec3(dot(row[0].xyz, normal), dot(row[1].xyz, normal), dot(row[2].xyz, normal));
-  const float most = float((1u << ENSEMBLE_POSE_POSITION_BITS) - 1u);
-  uvec3 q = uvec3(clamp((posed - job.box.xyz) * job.box.w + 0.5, 0.0, most));
-  vec2 n = encodeOctahedral(turned) * 0.5 + 0.5;
-  uint nx = uint(n.x * float((1u << ENSEMBLE_POSE_NORMAL_X_BITS) - 1u) + 0.5);
-  uint ny = uint(n.y * float((1u << ENSEMBLE_POSE_NORMAL_Y_BITS) - 1u) + 0.5);
-  uint packed_normal = nx | ny << ENSEMBLE_POSE_NORMAL_X_BITS;  // 19 bits: 2 in the first word, 17 in the second
-  poses[job.pose + vertex] = uvec2(q.x | q.y << 15 | packed_normal << 30, q.z | packed_normal >> 2 << 15);
+  poses[job.pose + vertex] = keepVertex((posed - job.box.xyz) * job.box.w, turned);
+}
+
+void main() {
+  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
+  if (number >= group_count) return;
+  GpuSkinGroup group = groups[first_group + number];
+  GpuSkinJob job = jobs[group.job];
+  uint end = min(group.first_vertex + ENSEMBLE_SKIN_RUN, job.vertex_count);
+  [[dont_unroll]] for (uint v = group.first_vertex + gl_LocalInvocationID.x; v < end; v += ENSEMBLE_SKIN_GROUP) skin(job, v);
 }

@@ -43,6 +43,8 @@
 // And one for where its matrices come from.
 #define ENSEMBLE_BINDING_SKIN_ANIMATION 0
 #define ENSEMBLE_BINDING_SKIN_PALETTE 1
+// The pass that mixes kept poses has, beside the first of these, a set for each of the two buffers it reads.
+#define ENSEMBLE_BINDING_MIX_POSES 0
 
 // Specialisation constants of the rasteriser.
 #define ENSEMBLE_CONSTANT_LANES 3
@@ -56,8 +58,9 @@
 #define ENSEMBLE_SUBPIXEL_BITS 8
 // Triangles of a run, for each lane of a group.
 #define ENSEMBLE_RASTER_RUN 16u
-// Vertices that a group skins.
+// Invocations of a group that skins, and the vertices that they do.
 #define ENSEMBLE_SKIN_GROUP 64
+#define ENSEMBLE_SKIN_RUN 512u
 // Passes over pixels: invocations of a group, and pixels of an invocation, a group apart. Where shaders run
 // on the CPU an invocation costs as much to begin as a simple pixel.
 #define ENSEMBLE_LIST_GROUP 64
@@ -137,13 +140,15 @@ struct GpuRasterGroup {
   uint first_triangle;
 };
 
-/// A mesh to be skinned, at a key or as somebody's own.
+/// A mesh to be skinned, at a key or as somebody's own; or to be mixed from two that are kept.
 struct GpuSkinJob {
-  vec4 box;  ///< xyz: low corner of the clip's box, or in the world, metres; w: steps a metre
-  uint first_vertex;
+  vec4 box;  ///< xyz: low corner of the clip's box, or in the world, metres; w: steps a metre. Mixed: x, part
+             ///< of the way from the one pose to the other
+  uint first_vertex;  ///< of the mesh. Mixed: of the pose before
   uint vertex_count;
   uint pose;          ///< first vertex in its buffer
-  uint first_matrix;  ///< of the key in the animation texture, or of the person in the palette
+  uint first_matrix;  ///< of the key in the animation texture, or of the person in the palette. Mixed: first
+                      ///< vertex of the pose after
 };
 
 /// A run of vertices of a job.

@@ -134,6 +134,29 @@ TEST(KeyFrames, TheNearestKeyOfTheClipThatWeighsMore) {
   }
 }
 
+TEST(KeyFrames, BetweenWhichKeysSomebodyIs) {
+  const std::vector<Wardrobe> wardrobes = {testing::tubeWardrobe()};
+  const KeyFrames frames = numberKeyFrames(buildAnimation(wardrobes));
+  const std::uint32_t last = frames.clips[0].key_count - 1;
+  GpuCharacter character{};
+  character.phase = 1.25f / static_cast<float>(last);
+  std::optional<BetweenKeys> keys = betweenKeys(frames, character);
+  ASSERT_TRUE(keys);
+  EXPECT_EQ(keys->before, 1u);
+  EXPECT_EQ(keys->after, 2u);
+  EXPECT_NEAR(keys->part, 0.25f, 1e-4f);
+  character.phase = 1.0f;  // the last key closes the loop
+  keys = betweenKeys(frames, character);
+  ASSERT_TRUE(keys);
+  EXPECT_EQ(keys->after, last);
+  EXPECT_NEAR(keys->part, 1.0f, 1e-5f);
+  character.idle_weight = 0.5f;
+  EXPECT_FALSE(betweenKeys(frames, character)) << "two clips";
+  character.idle_weight = 0.0f;
+  character.feet[1].w = 1.0f;
+  EXPECT_FALSE(betweenKeys(frames, character)) << "a foot is held";
+}
+
 TEST(LongestEdges, AreThoseOfThePosedMeshes) {
   const Wardrobe wardrobe = testing::tubeWardrobe();
   const std::vector<Wardrobe> wardrobes = {wardrobe};
