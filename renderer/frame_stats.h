@@ -40,8 +40,8 @@ using PartTimes = std::array<double, kFramePartCount>;
 
 struct FrameStats {
   std::uint32_t characters_drawn = 0;  ///< people whose bounds touch the picture
-  std::uint32_t characters_posed = 0;  ///< whose palettes this view needed first: all but those that compute
-                                       ///< draws at key frames
+  std::uint32_t characters_posed = 0;  ///< whose palettes this view needed first: not of those whom compute
+                                       ///< draws from kept poses
   std::uint32_t characters_computed = 0;  ///< of those drawn: by the compute rasteriser
   std::uint64_t triangles_computed = 0;   ///< of the picture's triangles, likewise
   PoseStats poses;
