@@ -1,6 +1,5 @@
 // `ensemble render`: frames of a scene as pictures.
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,11 +10,13 @@
 #include "cli/crowd_dump.h"
 #include "cli/frame_files.h"
 #include "cli/frame_list.h"
+#include "cli/frame_sequence.h"
 #include "cli/scene_run.h"
 #include "core/input_error.h"
+#include "core/parallel.h"
 #include "core/progress.h"
 #include "renderer/frame_names.h"
-#include "renderer/renderer.h"
+#include "renderer/renderer_pool.h"
 
 namespace ensemble::cli {
 namespace {
@@ -26,50 +27,9 @@ struct RenderArguments {
   CommonOptions common;
   SceneArguments scene;
   std::string output, aovs, annotations, crowd_file, frames;
+  unsigned renderers = 0;  ///< 0: as many as pay off
   bool resume = false;
 };
-
-Json orNull(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
-
-Json toJson(const PassStats& pass) {
-  return {{"draw_calls", pass.draw_calls},
-          {"vertex_invocations", orNull(pass.vertex_invocations)},
-          {"triangles", pass.triangles}};
-}
-
-Json toJson(const PoseStats& poses) {
-  return {{"kept", poses.kept},
-          {"skinned", poses.skinned},
-          {"own", poses.own},
-          {"skinned_vertices", poses.skinned_vertices},
-          {"kept_bytes", poses.kept_bytes}};
-}
-
-Json toJson(const PartTimes& times) {
-  Json parts = Json::object();
-  for (std::size_t part = 0; part < kFramePartCount; ++part) parts[kFramePartNames[part]] = times[part];
-  return parts;
-}
-
-Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stats) {
-  return {{"index", index},
-          {"file", file},
-          {"frame_ms", stats.frame_ms},
-          {"cpu_ms", stats.cpu_ms},
-          {"parts_ms", toJson(stats.parts_ms)},
-          {"characters_drawn", stats.characters_drawn},
-          {"characters_posed", stats.characters_posed},
-          {"characters_computed", stats.characters_computed},
-          {"triangles_computed", stats.triangles_computed},
-          {"poses", toJson(stats.poses)},
-          {"draw_calls", stats.drawCalls()},
-          {"vertex_invocations", orNull(stats.vertexInvocations())},
-          {"triangles", stats.triangles()},
-          {"gpu_mesh_bytes", stats.gpu_mesh_bytes},
-          {"environment_bytes", stats.environment_bytes},
-          {"passes", {{"main", toJson(stats.main)}, {"shadow", toJson(stats.shadow)}}},
-          {"environment", toJson(stats.environment)}};
-}
 
 void checkAnnotations(const std::string& file) {
   if (file != "-") return;
@@ -85,6 +45,30 @@ void checkOutput(const RenderArguments& arguments, const Scene& scene, const Fra
                     "leave --resume out, or write name_%04d.png and make the video of them"});
 }
 
+/// Frames that are finished already, and those that are not.
+struct FramesToDo {
+  std::vector<std::uint32_t> skipped, drawn;
+};
+
+FramesToDo framesToDo(std::span<const std::uint32_t> frames, const FrameFiles& files,
+                      const AnnotationFile* annotations, bool resume) {
+  FramesToDo to_do;
+  for (const std::uint32_t frame : frames) {
+    const bool is_annotated = !annotations || annotations->has(frame);
+    const bool is_skipped = resume && is_annotated && files.areFinished(frame);
+    (is_skipped ? to_do.skipped : to_do.drawn).push_back(frame);
+  }
+  return to_do;
+}
+
+/// Lets as many renderers draw as were asked for, or as pay off. @returns the most that there will be
+unsigned allowRenderers(unsigned asked, std::size_t frames, RendererPool& renderers) {
+  if (asked == 0) return renderers.allowAutomatic(frames, threadCount(0));
+  const auto count = static_cast<unsigned>(std::clamp<std::size_t>(frames, 1, asked));
+  renderers.allow(count);
+  return count;
+}
+
 void run(const RenderArguments& arguments) {
   const std::vector<Aov> aovs = parseAovs(arguments.aovs);
   checkCrowdDump(arguments.crowd_file, arguments.common.json_file);
@@ -96,51 +80,39 @@ void run(const RenderArguments& arguments) {
   std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
   findLayersOf(scene, wardrobes);
   const std::optional<EnvironmentMesh> environment = loadEnvironment(scene);
-  Renderer renderer({.validate = arguments.scene.validate});
-  renderer.load(scene, wardrobes, environment ? &*environment : nullptr);
+  RendererPool renderers(
+      {.validate = arguments.scene.validate},
+      {.scene = &scene, .wardrobes = wardrobes, .environment = environment ? &*environment : nullptr});
   View view = viewOf(scene);
   for (const Aov aov : aovs) view.aovs.add(aov);
   view.linear = names.format() == PictureFormat::kExr;
   std::string ids;
-  if (!aovs.empty()) ids = aovIds(scene, wardrobes, renderer.crowd(), renderer.aovNumbers()).dump(2) + "\n";
+  if (!aovs.empty()) ids = aovIds(scene, wardrobes, renderers.crowd(), renderers.aovNumbers()).dump(2) + "\n";
   FrameFiles files(names, scene.output, {.aovs = aovs, .ids = std::move(ids)});
-  if (!arguments.crowd_file.empty()) dumpCrowd(arguments.crowd_file, scene, wardrobes, renderer.crowd());
+  if (!arguments.crowd_file.empty()) dumpCrowd(arguments.crowd_file, scene, wardrobes, renderers.crowd());
   std::optional<AnnotationFile> annotations;
   if (!arguments.annotations.empty()) {
-    annotations.emplace(arguments.annotations, annotationHeader(scene, wardrobes, renderer.crowd()),
+    annotations.emplace(arguments.annotations, annotationHeader(scene, wardrobes, renderers.crowd()),
                         arguments.resume);
     view.aovs.add(Aov::kCharacter);
     view.coverage = true;
   }
+  AnnotationFile* const annotated = annotations ? &*annotations : nullptr;
 
-  Json rows = Json::array(), skipped = Json::array();
-  Picture picture;
+  const FramesToDo to_do = framesToDo(frames, files, annotated, arguments.resume);
+  const unsigned most = allowRenderers(arguments.renderers, to_do.drawn.size(), renderers);
   Progress progress("rendering", frames.size());
-  for (const std::uint32_t frame : frames) {
-    const bool is_annotated = !annotations || annotations->has(frame);
-    if (arguments.resume && is_annotated && files.areFinished(frame)) {
-      skipped.push_back(frame);
-    } else {
-      const double seconds = frame / double{scene.output.fps};
-      view.camera = scene.camera.at(seconds);
-      renderer.render(std::span(&view, 1), seconds, std::span(&picture, 1));
-      files.write(frame, picture);
-      const std::string file = names.picture(frame).string();
-      if (annotations) {
-        annotations->add(frame,
-                         annotateFrame(scene, wardrobes, renderer.crowd(), view, picture, frame, file));
-      }
-      rows.push_back(toJson(frame, file, picture.stats));
-    }
-    progress.advance();
-  }
+  progress.advance(to_do.skipped.size());
+  const FrameSequence sequence{scene, wardrobes, renderers, view, names, files, annotated};
+  Json rows = drawFrames(sequence, to_do.drawn, most, progress);
   files.finish();
   if (annotations) annotations->finish(frames);
   writeFigures(arguments.common, {{"schema", "ensemble.render/1"},
-                                  {"device", renderer.deviceName()},
+                                  {"device", renderers.deviceName()},
+                                  {"renderers", renderers.madeCount()},
                                   {"frames", std::move(rows)},
-                                  {"skipped", std::move(skipped)}});
-  refuseValidationMessages(renderer);
+                                  {"skipped", to_do.skipped}});
+  refuseValidationMessages(renderers.validationMessages());
 }
 
 }  // namespace
@@ -176,6 +148,15 @@ void addRenderCommand(CLI::App& app) {
       .add_option("--frames", arguments->frames,
                   "Which frames, e.g. 0-9,20; frame i is at i/fps seconds; default: all of output.frames")
       ->type_name("A-B,C");
+  command
+      .add_option(
+          "--renderers", arguments->renderers,
+          "Draw a sequence with N renderers at once, 1 to 64; each holds the scene, within one limit "
+          "of memory, and all make the same bytes. Default: 1 on a GPU; on a CPU one for each core, or "
+          "one for each 4 where most people are drawn in compute shaders, at most 8 and at most one "
+          "for every 4 frames (docs/performance.md)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64));
   command.add_flag("--resume", arguments->resume,
                    "Skip frames whose files are all there, complete and of the right size; not with a video; "
                    "by default every frame is drawn");

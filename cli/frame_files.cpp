@@ -1,6 +1,7 @@
 #include "cli/frame_files.h"
 
 #include "core/atomic_file.h"
+#include "core/image_file.h"
 #include "core/input_error.h"
 #include "renderer/finished_picture.h"
 #include "renderer/picture_writer.h"
@@ -45,36 +46,42 @@ bool FrameFiles::areFinished(std::uint32_t frame) const {
   return options_.aovs.empty() || holds(names_.ids(frame), options_.ids);
 }
 
-void FrameFiles::write(std::uint32_t frame, const Picture& picture) {
+std::vector<EncodedFile> FrameFiles::encode(std::uint32_t frame, const Picture& picture) const {
+  std::vector<EncodedFile> files;
   switch (names_.format()) {
     case PictureFormat::kPng:
-      writePicture(names_.picture(frame), picture.color);
+      files.push_back({names_.picture(frame), encodePng(picture.color)});
       break;
     case PictureFormat::kExr:
-      writeLinearPicture(names_.picture(frame), width_, height_, picture.linear);
+      files.push_back({names_.picture(frame), encodeLinearPicture(width_, height_, picture.linear)});
       break;
     case PictureFormat::kVideo:
-      video_->add(picture.color);
       break;
   }
-  for (const Aov aov : options_.aovs) writeAov(frame, aov, picture);
+  for (const Aov aov : options_.aovs) files.push_back({names_.aov(frame, aov), encodeAov(aov, picture)});
+  return files;
+}
+
+void FrameFiles::write(std::uint32_t frame, const Picture& picture, const std::vector<EncodedFile>& files) {
+  if (video_) video_->add(picture.color);
+  for (const EncodedFile& file : files) writeFileAtomically(file.file, file.bytes);
   if (!options_.aovs.empty()) writeFileAtomically(names_.ids(frame), std::string_view(options_.ids));
 }
 
-void FrameFiles::writeAov(std::uint32_t frame, Aov aov, const Picture& picture) const {
-  const std::filesystem::path file = names_.aov(frame, aov);
+std::vector<std::byte> FrameFiles::encodeAov(Aov aov, const Picture& picture) const {
   switch (aov) {
     case Aov::kCharacter:
-      return writeIdAov(file, aov, width_, height_, picture.character);
+      return encodeIdAov(aov, width_, height_, picture.character);
     case Aov::kRegion:
-      return writeIdAov(file, aov, width_, height_, picture.region);
+      return encodeIdAov(aov, width_, height_, picture.region);
     case Aov::kFace:
-      return writeIdAov(file, aov, width_, height_, picture.face);
+      return encodeIdAov(aov, width_, height_, picture.face);
     case Aov::kDepth:
-      return writeFloatAov(file, aov, width_, height_, picture.depth);
+      return encodeFloatAov(aov, width_, height_, picture.depth);
     case Aov::kNormal:
-      return writeFloatAov(file, aov, width_, height_, picture.normal);
+      return encodeFloatAov(aov, width_, height_, picture.normal);
   }
+  return {};
 }
 
 void FrameFiles::finish() {

@@ -64,14 +64,17 @@ std::optional<EnvironmentMesh> loadEnvironment(const Scene& scene) {
   return mesh;
 }
 
-void refuseValidationMessages(const Renderer& renderer) {
-  const std::vector<std::string> messages = renderer.validationMessages();
+void refuseValidationMessages(const std::vector<std::string>& messages) {
   if (messages.empty()) return;
   for (const std::string& message : messages) logWarning(message);
   throw SystemError({.file = {},
                      .where = "--validate",
                      .what = fmt::format("the validation layer has {} messages", messages.size()),
                      .mend = "report them as a bug"});
+}
+
+void refuseValidationMessages(const Renderer& renderer) {
+  refuseValidationMessages(renderer.validationMessages());
 }
 
 }  // namespace ensemble::cli

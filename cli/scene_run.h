@@ -48,7 +48,8 @@ void findLayersOf(std::span<const WornCombinations> worn, std::span<Wardrobe> wa
 /// @throws as loadEnvironmentMesh
 std::optional<EnvironmentMesh> loadEnvironment(const Scene& scene);
 
-/// Logs what the validation layer has said. @throws SystemError if there is anything
+/// Logs what validation layers have said. @throws SystemError if there is anything
+void refuseValidationMessages(const std::vector<std::string>& messages);
 void refuseValidationMessages(const Renderer& renderer);
 
 }  // namespace ensemble::cli

@@ -18,4 +18,19 @@ unsigned threadCount(unsigned wished);
 void forEachOnThreads(unsigned threads, std::size_t count,
                       const std::function<void(std::size_t, unsigned)>& work);
 
+/// Jobs whose results leave one after the other. A *slot* is a job's own from the begin of its `make` to the
+/// end of its `leave`: what it needs and gives is held per slot.
+struct OrderedJobs {
+  using Step = std::function<void(std::size_t job, std::size_t slot)>;
+  std::size_t count = 0;
+  std::size_t slots = 1;  ///< as many jobs are under way at most; at least 1
+  Step make;              ///< on any thread; begun in the order of jobs
+  Step leave;             ///< on the caller's thread, in the order of jobs
+};
+
+/// Makes and leaves jobs 0 .. count - 1. Fewer threads do it if the system gives no more.
+/// @param threads that make; the caller's leaves meanwhile. 0: the caller's does both, job by job
+/// @throws what the first failing job threw, by number; all before it have left, none after it leaves.
+void forEachInOrder(unsigned threads, const OrderedJobs& jobs);
+
 }  // namespace ensemble

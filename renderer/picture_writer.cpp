@@ -11,7 +11,6 @@
 #include <cstring>
 #include <exception>
 
-#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_error.h"
 
@@ -118,41 +117,35 @@ std::span<const char* const> exrChannelsOfLight() {
   return kLight;
 }
 
-void writeLinearPicture(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
-                        std::span<const std::uint16_t> rgba) {
+std::vector<std::byte> encodeLinearPicture(std::uint32_t width, std::uint32_t height,
+                                           std::span<const std::uint16_t> rgba) {
   ENSEMBLE_CHECK(rgba.size() == std::size_t{4} * width * height);
   const ExrChannel channels[] = {
       {"R", rgba, 4}, {"G", rgba.subspan(1), 4}, {"B", rgba.subspan(2), 4}, {"A", rgba.subspan(3), 4}};
-  writeFileAtomically(file, encodeExr(width, height, channels, ExrContent::kRec709Light));
+  return encodeExr(width, height, channels, ExrContent::kRec709Light);
 }
 
-void writePicture(const std::filesystem::path& file, const Image8& image) {
-  ENSEMBLE_CHECK(image.rgba.size() == std::size_t{image.width} * image.height * 4);
-  writeFileAtomically(file, encodePng(image));
-}
-
-void writeIdAov(const std::filesystem::path& file, Aov aov, std::uint32_t width, std::uint32_t height,
-                std::span<const std::uint32_t> ids) {
+std::vector<std::byte> encodeIdAov(Aov aov, std::uint32_t width, std::uint32_t height,
+                                   std::span<const std::uint32_t> ids) {
   ENSEMBLE_CHECK(aov == Aov::kCharacter || aov == Aov::kRegion || aov == Aov::kFace);
   ENSEMBLE_CHECK(ids.size() == std::size_t{width} * height);
   const ExrChannel channels[] = {{"id", ids}};
-  writeFileAtomically(file, encodeExr(width, height, channels));
+  return encodeExr(width, height, channels);
 }
 
-void writeFloatAov(const std::filesystem::path& file, Aov aov, std::uint32_t width, std::uint32_t height,
-                   std::span<const float> values) {
+std::vector<std::byte> encodeFloatAov(Aov aov, std::uint32_t width, std::uint32_t height,
+                                      std::span<const float> values) {
   const std::size_t pixel_count = std::size_t{width} * height;
   if (aov == Aov::kDepth) {
     ENSEMBLE_CHECK(values.size() == pixel_count);
     const ExrChannel channels[] = {{"Z", values}};
-    writeFileAtomically(file, encodeExr(width, height, channels));
-    return;
+    return encodeExr(width, height, channels);
   }
   ENSEMBLE_CHECK(aov == Aov::kNormal);
   ENSEMBLE_CHECK(values.size() == 3 * pixel_count);
   const ExrChannel channels[] = {
       {"N.X", values, 3}, {"N.Y", values.subspan(1), 3}, {"N.Z", values.subspan(2), 3}};
-  writeFileAtomically(file, encodeExr(width, height, channels));
+  return encodeExr(width, height, channels);
 }
 
 }  // namespace ensemble

@@ -1,16 +1,13 @@
-// Pictures as files: PNG for colour, OpenEXR for linear colour and numbers. Each file is there whole or
-// not at all.
+// Pictures as the bytes of OpenEXR files: linear colour and numbers. (PNG: core/image_file.h.)
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "core/image_file.h"
 #include "renderer/frame_names.h"
 
 namespace ensemble {
@@ -40,21 +37,18 @@ std::span<const char* const> exrChannelsOf(Aov aov);
 std::span<const char* const> exrChannelsOfLight();  ///< A, B, G, R
 
 /// Linear light, the HALF channels R, G, B, A: half-precision bits of RGBA, #pixels x 4, colour multiplied
-/// by alpha, as in Picture::linear. @throws SystemError if the file can't be written.
-void writeLinearPicture(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
-                        std::span<const std::uint16_t> rgba);
-
-/// 8-bit sRGB. @throws SystemError if the file can't be written.
-void writePicture(const std::filesystem::path& file, const Image8& image);
+/// by alpha, as in Picture::linear. @throws SystemError if OpenEXR refuses; so do those below.
+std::vector<std::byte> encodeLinearPicture(std::uint32_t width, std::uint32_t height,
+                                           std::span<const std::uint16_t> rgba);
 
 /// character, region, face: the UINT channel `id`, from 32-bit numbers, #pixels.
-/// @throws SystemError if the file can't be written. @pre the kind is one of these three.
-void writeIdAov(const std::filesystem::path& file, Aov aov, std::uint32_t width, std::uint32_t height,
-                std::span<const std::uint32_t> ids);
+/// @pre the kind is one of these three.
+std::vector<std::byte> encodeIdAov(Aov aov, std::uint32_t width, std::uint32_t height,
+                                   std::span<const std::uint32_t> ids);
 
 /// depth: the FLOAT channel `Z`, #pixels; normal: `N.X`, `N.Y`, `N.Z`, #pixels x 3.
-/// @throws SystemError if the file can't be written. @pre the kind is one of these two.
-void writeFloatAov(const std::filesystem::path& file, Aov aov, std::uint32_t width, std::uint32_t height,
-                   std::span<const float> values);
+/// @pre the kind is one of these two.
+std::vector<std::byte> encodeFloatAov(Aov aov, std::uint32_t width, std::uint32_t height,
+                                      std::span<const float> values);
 
 }  // namespace ensemble

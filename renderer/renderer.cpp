@@ -117,7 +117,9 @@ std::vector<float> longestEdgesOfPeople(const Crowd& crowd, const WornLists& wor
 struct Renderer::Impl {
   explicit Impl(const RendererOptions& renderer_options)
       : options(renderer_options),
-        device({.validate = renderer_options.validate, .memory_limit = renderer_options.memory_limit}) {
+        device({.validate = renderer_options.validate,
+                .memory_limit = renderer_options.memory_limit,
+                .memory = renderer_options.memory}) {
     options.max_buffer_bytes =
         std::min<std::uint64_t>(options.max_buffer_bytes, device.limits().maxStorageBufferRange);
     // The palette is read as texels.
@@ -125,12 +127,13 @@ struct Renderer::Impl {
                                         sizeof(vec4) * std::uint64_t{device.limits().maxTexelBufferElements});
   }
 
-  void load(const Scene& scene, std::span<const Wardrobe> wardrobes, const EnvironmentMesh* environment) {
+  void load(const Scene& scene, std::span<const Wardrobe> wardrobes, const EnvironmentMesh* environment,
+            Crowd crowd) {
     ENSEMBLE_CHECK(wardrobes.size() == scene.wardrobes.size());
     ENSEMBLE_CHECK(environment != nullptr || scene.environment.value.empty());
     loaded.reset();  // Its memory is needed.
     LoadedScene next;
-    next.crowd = std::make_unique<const Crowd>(populateCrowd(scene, wardrobes));
+    next.crowd = std::make_unique<const Crowd>(std::move(crowd));
     const WornLists worn = buildLists(*next.crowd, wardrobes, scene.technique);
     const Animation animation = buildAnimation(wardrobes);
     CrowdAssets::Input input{.wardrobes = {},
@@ -177,7 +180,13 @@ Renderer::~Renderer() = default;
 
 void Renderer::load(const Scene& scene, std::span<const Wardrobe> wardrobes,
                     const EnvironmentMesh* environment) {
-  atPublicFace([&] { impl_->load(scene, wardrobes, environment); });
+  ENSEMBLE_CHECK(wardrobes.size() == scene.wardrobes.size());
+  load(scene, wardrobes, environment, populateCrowd(scene, wardrobes));
+}
+
+void Renderer::load(const Scene& scene, std::span<const Wardrobe> wardrobes,
+                    const EnvironmentMesh* environment, Crowd crowd) {
+  atPublicFace([&] { impl_->load(scene, wardrobes, environment, std::move(crowd)); });
 }
 
 void Renderer::render(std::span<const View> views, double seconds, std::span<Picture> pictures) {
@@ -196,6 +205,12 @@ const AovNumbers& Renderer::aovNumbers() const {
 }
 
 std::string Renderer::deviceName() const { return impl_->device.name(); }
+
+bool Renderer::isOnCpu() const { return impl_->device.isCpu(); }
+
+std::uint64_t Renderer::memoryInUse() const { return impl_->device.memoryInUse(); }
+
+std::uint64_t Renderer::memoryLimit() const { return impl_->device.memoryLimit(); }
 
 bool Renderer::countsVertexInvocations() const { return impl_->device.hasPipelineStatistics(); }
 

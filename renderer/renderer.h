@@ -15,14 +15,16 @@
 #include "core/scene.h"
 #include "core/wardrobe.h"
 #include "renderer/crowd.h"
+#include "renderer/memory_budget.h"
 #include "renderer/tile_grid.h"
 #include "renderer/view.h"
 
 namespace ensemble {
 
 struct RendererOptions {
-  bool validate = false;                          ///< collect what the validation layer says
-  std::uint64_t memory_limit = 0;                 ///< bytes on the device; 0: what it has
+  bool validate = false;                      ///< collect what the validation layer says
+  std::uint64_t memory_limit = 0;             ///< bytes on the device; 0: what it has
+  std::shared_ptr<MemoryBudget> memory = {};  ///< given to several renderers: they keep the limit together
   std::uint64_t max_buffer_bytes = 128ull << 20;  ///< no buffer of a crowd grows beyond; more are made
   /// Larger pictures are drawn tile by tile. These limits, not the device's, belong to what a picture is:
   /// where a tile begins decides how coordinates round, so that others move its last bits.
@@ -51,6 +53,9 @@ class Renderer {
   /// @throws InputError as populateCrowd, or for a damaged texture; SystemError for what does not fit
   void load(const Scene& scene, std::span<const Wardrobe> wardrobes,
             const EnvironmentMesh* environment = nullptr);
+  /// The same of a crowd that populateCrowd has made of the scene.
+  void load(const Scene& scene, std::span<const Wardrobe> wardrobes, const EnvironmentMesh* environment,
+            Crowd crowd);
 
   /// Draws each view at a time in seconds. Two views in one call give exactly the pictures of two
   /// calls. Equal depths go to what is drawn first: garments, then body, in the lists' order.
@@ -64,6 +69,9 @@ class Renderer {
   const Crowd& crowd() const;
   const AovNumbers& aovNumbers() const;
   std::string deviceName() const;
+  bool isOnCpu() const;               ///< the device is software on the processor
+  std::uint64_t memoryInUse() const;  ///< bytes on the device, of all renderers that share a MemoryBudget
+  std::uint64_t memoryLimit() const;
   bool countsVertexInvocations() const;  ///< the device has pipeline statistics
   /// Messages of the validation layer so far; empty without `validate`.
   std::vector<std::string> validationMessages() const;

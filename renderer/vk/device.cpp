@@ -157,7 +157,8 @@ std::vector<std::string> ValidationLog::messages() const {
   return messages_;
 }
 
-Device::Device(const DeviceOptions& options) : options_(options) {
+Device::Device(const DeviceOptions& options)
+    : options_(options), memory_in_use_(options.memory ? options.memory : std::make_shared<MemoryBudget>()) {
   createInstance();
   choosePhysicalDevice();
   createDevice();
@@ -168,6 +169,7 @@ Device::~Device() {
     if (*device_) device_.waitIdle();
   } catch (const vk::SystemError&) {  // A lost device; there is nothing left to wait for.
   }
+  memory_in_use_->giveBack(allocated_);  // what an error kept from being given back
 }
 
 void Device::createInstance() {
@@ -242,28 +244,27 @@ void Device::createDevice() {
                                          .queueFamilyIndex = queue_family_}));
 }
 
-std::uint64_t Device::bytesLeft() const {
+std::uint64_t Device::memoryLimit() const {
   std::uint64_t total = 0;
   for (std::uint32_t i = 0; i < memory_.memoryHeapCount; ++i) {
     const vk::MemoryHeap& heap = memory_.memoryHeaps[i];
     if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal) total = std::max(total, std::uint64_t{heap.size});
   }
-  if (options_.memory_limit != 0) total = std::min(total, options_.memory_limit);
-  return total > allocated_ ? total - allocated_ : 0;
+  return options_.memory_limit != 0 ? std::min(total, options_.memory_limit) : total;
 }
 
 vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& wanted,
                                         vk::MemoryPropertyFlags required, vk::MemoryPropertyFlags preferred,
                                         const std::string& what) {
   const auto refuse = [&] {
+    const std::uint64_t used = memoryInUse(), most = memoryLimit();
     throw SystemError({.file = {},
                        .where = "Vulkan device " + name(),
                        .what = fmt::format("{} of {} does not fit: {} are in use and {} are left", what,
-                                           describeBytes(wanted.size), describeBytes(allocated_),
-                                           describeBytes(bytesLeft())),
+                                           describeBytes(wanted.size), describeBytes(used),
+                                           describeBytes(most > used ? most - used : 0)),
                        .mend = "use fewer people, smaller pictures or smaller textures"});
   };
-  if (wanted.size > bytesLeft()) refuse();
   std::optional<std::uint32_t> type;
   for (const vk::MemoryPropertyFlags flags : {required | preferred, required}) {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount && !type; ++i) {
@@ -272,17 +273,23 @@ vk::raii::DeviceMemory Device::allocate(const vk::MemoryRequirements& wanted,
     }
   }
   if (!type) throwNoDevice(fmt::format("{} has no memory for {}", name(), what));
+  if (!memory_in_use_->take(wanted.size, memoryLimit())) refuse();
+  allocated_ += wanted.size;
   try {
-    auto memory = ENSEMBLE_VK(vk::raii::DeviceMemory(
+    return ENSEMBLE_VK(vk::raii::DeviceMemory(
         device_, vk::MemoryAllocateInfo{.allocationSize = wanted.size, .memoryTypeIndex = *type}));
-    allocated_ += wanted.size;
-    return memory;
   } catch (const VulkanError& error) {
+    freed(wanted.size);
     const bool full = error.result() == vk::Result::eErrorOutOfDeviceMemory ||
                       error.result() == vk::Result::eErrorOutOfHostMemory;
     if (full) refuse();
     throw;
   }
+}
+
+void Device::freed(std::uint64_t bytes) {
+  allocated_ -= bytes;
+  memory_in_use_->giveBack(bytes);
 }
 
 void Device::runOnce(const std::function<void(const vk::raii::CommandBuffer&)>& record) {

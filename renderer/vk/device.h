@@ -9,13 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "renderer/memory_budget.h"
 #include "renderer/vk/call.h"
 
 namespace ensemble::gpu {
 
 struct DeviceOptions {
-  bool validate = false;           ///< the validation layer with synchronization validation
-  std::uint64_t memory_limit = 0;  ///< bytes that may be allocated; 0: what the device has
+  bool validate = false;                      ///< the validation layer with synchronization validation
+  std::uint64_t memory_limit = 0;             ///< bytes that may be allocated; 0: what the device has
+  std::shared_ptr<MemoryBudget> memory = {};  ///< what counts against it; null: this device's own
 };
 
 /// Warnings and errors of the validation layer, in the order they came.
@@ -45,6 +47,7 @@ class Device {
   const vk::PhysicalDeviceFeatures& features() const { return features_; }
   std::uint32_t queueFamily() const { return queue_family_; }
   std::string name() const { return properties_.deviceName; }
+  bool isCpu() const { return properties_.deviceType == vk::PhysicalDeviceType::eCpu; }
   bool hasPipelineStatistics() const { return features_.pipelineStatisticsQuery; }
   bool hasTimestamps() const { return has_timestamps_; }
   /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers, shuffles and ballots
@@ -58,7 +61,10 @@ class Device {
   vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& wanted, vk::MemoryPropertyFlags required,
                                   vk::MemoryPropertyFlags preferred, const std::string& what);
   /// Tells that memory from `allocate` was freed.
-  void freed(std::uint64_t bytes) { allocated_ -= bytes; }
+  void freed(std::uint64_t bytes);
+  /// Of all who share the account.
+  std::uint64_t memoryInUse() const { return memory_in_use_->used(); }
+  std::uint64_t memoryLimit() const;
 
   /// Records commands, submits them and waits. For loading, not for frames.
   void runOnce(const std::function<void(const vk::raii::CommandBuffer&)>& record);
@@ -67,7 +73,6 @@ class Device {
   void createInstance();
   void choosePhysicalDevice();
   void createDevice();
-  std::uint64_t bytesLeft() const;
 
   DeviceOptions options_;
   ValidationLog log_;
@@ -85,7 +90,8 @@ class Device {
   vk::raii::Device device_ = nullptr;
   vk::raii::Queue queue_ = nullptr;
   vk::raii::CommandPool pool_ = nullptr;
-  std::uint64_t allocated_ = 0;
+  std::shared_ptr<MemoryBudget> memory_in_use_;
+  std::uint64_t allocated_ = 0;  // of these bytes, this device's
 };
 
 /// The name of the device that `Device` would choose, or "none". Never throws.
