@@ -1,4 +1,4 @@
-// `ensemble bench`: the three techniques side by side, in interleaved rounds.
+// `ensemble bench`: techniques and rasterisers side by side, in interleaved rounds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "cli/bench_figures.h"
 #include "cli/bench_page.h"
 #include "cli/command.h"
+#include "cli/frame_list.h"
 #include "cli/scene_run.h"
 #include "core/atomic_file.h"
 #include "core/input_error.h"
@@ -27,9 +28,11 @@ using Json = nlohmann::ordered_json;
 struct BenchArguments {
   CommonOptions common;
   SceneArguments scene;
-  std::string techniques = "naive,prefitted,tagged", counts, csv_file, html_file;
-  std::uint32_t rounds = 15;
+  std::string techniques = "naive,prefitted,tagged", rasterisers, counts, frames, csv_file, html_file;
+  std::optional<std::uint32_t> rounds, warm_up;
 };
+
+constexpr std::uint32_t kRounds = 15, kMostRounds = 10000;
 
 std::vector<std::string_view> splitList(std::string_view text) {
   std::vector<std::string_view> parts;
@@ -41,20 +44,32 @@ std::vector<std::string_view> splitList(std::string_view text) {
   return parts;
 }
 
-std::vector<Technique> parseTechniques(const std::string& text) {
-  std::vector<Technique> techniques;
+/// Names parted by commas, each once; `parse` gives none for what it does not know.
+template <class Kind>
+std::vector<Kind> parseKinds(const std::string& text, std::optional<Kind> (*parse)(std::string_view),
+                             const char* option, const char* what, const char* known) {
+  std::vector<Kind> kinds;
   for (const std::string_view name : splitList(text)) {
-    const std::optional<Technique> technique = parseTechnique(name);
-    if (!technique) {
+    const std::optional<Kind> kind = parse(name);
+    if (!kind) {
       throw UsageError({.file = {},
-                        .where = "--techniques",
-                        .what = "unknown technique '" + std::string(name) + "'",
-                        .mend = "choose from naive,prefitted,tagged"});
+                        .where = option,
+                        .what = fmt::format("unknown {} '{}'", what, name),
+                        .mend = std::string("choose from ") + known});
     }
-    if (std::find(techniques.begin(), techniques.end(), *technique) == techniques.end())
-      techniques.push_back(*technique);
+    if (std::find(kinds.begin(), kinds.end(), *kind) == kinds.end()) kinds.push_back(*kind);
   }
-  return techniques;
+  return kinds;
+}
+
+std::vector<Technique> parseTechniques(const std::string& text) {
+  return parseKinds(text, parseTechnique, "--techniques", "technique", "naive,prefitted,tagged");
+}
+
+/// The scene's own where none are given.
+std::vector<RasterKind> parseRasterisers(const std::string& text, const Scene& scene) {
+  if (text.empty()) return {scene.raster};
+  return parseKinds(text, parseRasterKind, "--rasterisers", "rasteriser", "auto,pipeline,compute");
 }
 
 /// Numbers of people in the crowd; what the scene says where none are given.
@@ -86,40 +101,69 @@ void writeFiles(const BenchArguments& arguments, const Json& figures) {
 
 void tellOfDifferentInvocations(std::span<const ContestRow> rows) {
   for (const ContestRow& row : rows) {
-    if (row.most_invocations == row.least_invocations) continue;
-    logWarning(
-        fmt::format("{} with {} people: this device counts from {} to {} vertex invocations in "
-                    "different rounds; the figures are those of the warm-up round",
-                    toString(row.technique), row.characters, row.least_invocations, row.most_invocations));
+    if (row.invocations_differ_by == 0) continue;
+    logWarning(fmt::format(
+        "{} by {} with {} people: this device's counts of vertex invocations of a frame differ "
+        "by up to {} between rounds",
+        toString(row.technique), toString(row.raster), row.characters, row.invocations_differ_by));
   }
 }
 
+/// What is drawn, and how often.
+struct Plan {
+  ContestOptions contest;
+  std::uint32_t warm_up = 1, rounds = kRounds;
+};
+
+Plan planOf(const BenchArguments& arguments, const Scene& scene) {
+  Plan plan{.contest = {.techniques = parseTechniques(arguments.techniques),
+                        .rasters = parseRasterisers(arguments.rasterisers, scene),
+                        .frames = {0},
+                        .validate = arguments.scene.validate}};
+  if (!arguments.frames.empty()) plan.contest.frames = parseFrames(arguments.frames, scene.output.frames);
+  if (plan.contest.frames.size() > kMostRounds) {
+    throw UsageError({.file = {},
+                      .where = "--frames",
+                      .what = fmt::format("{} frames are more than the {} that bench draws",
+                                          plan.contest.frames.size(), kMostRounds),
+                      .mend = "list fewer"});
+  }
+  const auto frame_count = static_cast<std::uint32_t>(plan.contest.frames.size());
+  plan.warm_up = arguments.warm_up.value_or(frame_count);
+  plan.rounds = arguments.rounds.value_or(std::max(kRounds, frame_count));
+  return plan;
+}
+
+Json figuresOf(const BenchArguments& arguments, const Scene& scene, const Plan& plan) {
+  return {{"schema", "ensemble.bench/1"},    {"device", ""},
+          {"width", scene.output.width},     {"height", scene.output.height},
+          {"samples", scene.output.samples}, {"scene", fs::path(arguments.scene.scene).filename().string()},
+          {"frames", plan.contest.frames},   {"fps", scene.output.fps},
+          {"rounds", plan.rounds},           {"warm_up_rounds", plan.warm_up},
+          {"rows", Json::array()},           {"ratios", Json::array()},
+          {"picture_errors", Json::array()}};
+}
+
 void run(const BenchArguments& arguments) {
-  const std::vector<Technique> techniques = parseTechniques(arguments.techniques);
   const Scene scene = loadSceneOf(arguments.scene);
+  const Plan plan = planOf(arguments, scene);
+  const std::vector<std::string> counts = parseCounts(arguments.counts, scene);
   std::vector<Wardrobe> wardrobes = loadWardrobes(scene);
   const std::optional<EnvironmentMesh> environment = loadEnvironment(scene);
-  const std::vector<std::string> counts = parseCounts(arguments.counts, scene);
-  Json figures = {
-      {"schema", "ensemble.bench/1"},    {"device", ""},
-      {"width", scene.output.width},     {"height", scene.output.height},
-      {"samples", scene.output.samples}, {"scene", fs::path(arguments.scene.scene).filename().string()},
-      {"rounds", arguments.rounds},      {"warm_up_rounds", 1},
-      {"rows", Json::array()},           {"ratios", Json::array()}};
-  Progress progress("rounds", std::uint64_t{arguments.rounds} * counts.size());
+  Json figures = figuresOf(arguments, scene, plan);
+  Progress progress("rounds", (std::uint64_t{plan.warm_up} + plan.rounds) * counts.size());
   for (const std::string& count : counts) {
     SceneArguments with_count = arguments.scene;
     with_count.overrides.push_back("crowd.count=" + count);
     const Scene contested = loadSceneOf(with_count);
     findLayersOf(contested, wardrobes);
-    Contest contest(contested, wardrobes, environment ? &*environment : nullptr, techniques,
-                    arguments.scene.validate);
-    for (std::uint32_t round = 0; round < arguments.rounds; ++round) {
-      contest.runRound();
+    Contest contest(contested, wardrobes, environment ? &*environment : nullptr, plan.contest);
+    for (std::uint32_t round = 0; round < plan.warm_up + plan.rounds; ++round) {
+      round < plan.warm_up ? contest.runWarmUpRound() : contest.runRound();
       progress.advance();
     }
     figures["device"] = contest.deviceName();
-    addContest(contest.rows(), figures);
+    addContest(contest.rows(), contest.errors(), figures);
     tellOfDifferentInvocations(contest.rows());
     contest.refuseMessages();
   }
@@ -130,31 +174,37 @@ void run(const BenchArguments& arguments) {
 }  // namespace
 
 void addBenchCommand(CLI::App& app) {
-  CLI::App& command =
-      *app.add_subcommand("bench", "Compare the techniques' frame time, vertex work and memory");
+  CLI::App& command = *app.add_subcommand(
+      "bench", "Compare the techniques' and rasterisers' frame time, vertex work and memory");
   const auto arguments = std::make_shared<BenchArguments>();
+  const auto option = [&](const char* name, auto& value, const char* type, const char* text) {
+    return command.add_option(name, value, text)->type_name(type);
+  };
   addSceneOptions(command, arguments->scene);
-  command
-      .add_option("--techniques", arguments->techniques,
-                  "Which to compare, parted by commas: naive, prefitted, tagged (default: all)")
-      ->type_name("LIST");
-  command
-      .add_option("--counts", arguments->counts,
-                  "Numbers of people in the crowd, parted by commas, each 1 or more; the scene's named "
-                  "people come on "
-                  "top (default: the scene's crowd.count)")
-      ->type_name("LIST");
-  command
-      .add_option("--rounds", arguments->rounds,
-                  "Counted frames of each technique for each number of people, 1 to 10000 (default 15)")
-      ->check(CLI::Range(1, 10000))
-      ->type_name("N");
-  command.add_option("--csv", arguments->csv_file, "Write the rows as a CSV table (default: none)")
-      ->type_name("FILE");
-  command
-      .add_option("--html", arguments->html_file,
-                  "Write a page with plots and tables of the figures: one file, no scripts (default: none)")
-      ->type_name("FILE");
+  option("--techniques", arguments->techniques, "LIST",
+         "Which to compare, parted by commas: naive, prefitted, tagged (default: all)");
+  option("--rasterisers", arguments->rasterisers, "LIST",
+         "Each technique is drawn by each of these, parted by commas: auto, pipeline, compute (default: the "
+         "scene's "
+         "raster alone)");
+  option("--counts", arguments->counts, "LIST",
+         "Numbers of people in the crowd, parted by commas, each 1 or more; the scene's named people come on "
+         "top "
+         "(default: the scene's crowd.count)");
+  option(
+      "--frames", arguments->frames, "A-B,C",
+      "Which frames of the scene to draw, e.g. 0-29: one a round, over and over, at its time i/fps, so that "
+      "people walk and the camera goes along its keys or orbit (default: frame 0 alone)");
+  option("--rounds", arguments->rounds, "N",
+         "Counted frames of each row for each number of people, 1 to 10000 (default: 15, or once through "
+         "--frames where these are more)")
+      ->check(CLI::Range(1u, kMostRounds));
+  option("--warm-up", arguments->warm_up, "N",
+         "Rounds before these that are not counted, 1 to 10000 (default: once through --frames)")
+      ->check(CLI::Range(1u, kMostRounds));
+  option("--csv", arguments->csv_file, "FILE", "Write the rows as a CSV table (default: none)");
+  option("--html", arguments->html_file, "FILE",
+         "Write a page with plots and tables of the figures: one file, no scripts (default: none)");
   finishCommand(command, arguments->common,
                 "ensemble bench scene.yaml --counts 100,300,1000 --html bench.html",
                 [arguments] { run(*arguments); });

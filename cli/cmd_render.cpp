@@ -38,6 +38,11 @@ void checkAnnotations(const std::string& file) {
 }
 
 void checkOutput(const RenderArguments& arguments, const Scene& scene, const FrameNames& names) {
+  if (names.format() == PictureFormat::kExr && scene.debug != DebugKind::kNone) {
+    throw UsageError({"", "-o " + arguments.output,
+                      "what `debug` lays over a picture is no light, and not in an EXR",
+                      "write .png, or --set debug=none"});
+  }
   if (names.format() != PictureFormat::kVideo) return;
   checkVideo(arguments.output, scene.output);
   if (!arguments.resume) return;

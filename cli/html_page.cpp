@@ -5,16 +5,18 @@
 namespace ensemble::cli {
 namespace {
 
-// Colours have one meaning each: three for the techniques, three for what is stored. Techniques
-// differ in the shape of their marks too, so that the plots read without colour.
+// Colours have one meaning each: three for the techniques, three for what is stored, three for the
+// rasterisers. Techniques differ in the shape of their marks too, so that the plots read without colour.
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; --page: #fff; --ink: #1c2430; --faint: #667080; --grid: #dde2e9;
   --naive: #c2501c; --prefitted: #12815f; --tagged: #2463c8;
-  --template: #5f6b7a; --garments: #a9b8cc; --fitted: #b8327f; }
+  --template: #5f6b7a; --garments: #a9b8cc; --fitted: #b8327f;
+  --pipeline: #7a5c12; --compute: #6a3fc4; --auto: #197f9c; }
 @media (prefers-color-scheme: dark) {
   :root { --page: #14181f; --ink: #e6eaf0; --faint: #98a3b3; --grid: #323a46;
     --naive: #f0926a; --prefitted: #45c79d; --tagged: #74a8f7;
-    --template: #8a97a8; --garments: #55647a; --fitted: #ea72b3; } }
+    --template: #8a97a8; --garments: #55647a; --fitted: #ea72b3;
+    --pipeline: #d3ae55; --compute: #b195f2; --auto: #5cc3df; } }
 body { margin: 2rem auto; max-width: 56rem; padding: 0 1rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, sans-serif; }
 h1 { font-size: 1.6rem; line-height: 1.2; } h2 { font-size: 1.2rem; margin-top: 2.2rem; }
@@ -33,7 +35,8 @@ svg .line { fill: none; stroke-width: 2; } svg .beyond { stroke-dasharray: 6 4; 
 svg .spread { stroke-width: 1.5; } svg .bar { stroke: var(--page); stroke-width: 1; }
 )";
 
-constexpr const char* kColors[] = {"naive", "prefitted", "tagged", "template", "garments", "fitted"};
+constexpr const char* kColors[] = {"naive",  "prefitted", "tagged",  "template", "garments",
+                                   "fitted", "pipeline",  "compute", "auto"};
 
 std::string style() {
   std::string text = kStyle;

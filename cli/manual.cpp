@@ -49,10 +49,17 @@ constexpr Manual kManuals[] = {
      "is found when people first wear them so, and kept in the wardrobe's folder layers/ (docs/wardrobe.md); "
      "bench, and report of a scene, do likewise."},
     {"bench",
-     "Draws the first frame of a scene with each technique in turn, round by round, and tells frame times, "
-     "vertex invocations, triangles, draw calls and bytes, with ratios. Each round begins with another "
-     "technique; a first round is not counted. It fails where tagged and pre-fitted give different pictures, "
-     "or a count differs between rounds.",
+     "Draws a frame of a scene with each technique, by each rasteriser, in turn, round by round, and tells "
+     "frame "
+     "times, vertex invocations, triangles, draw calls and bytes, with ratios; of rasterisers also what "
+     "share of "
+     "the people each drew, poses that were kept, and how far their pictures are apart. Each round begins "
+     "with "
+     "another one; rounds of warm-up are not counted. With --frames each round draws the next frame, else "
+     "all "
+     "draw frame 0. It fails where tagged and pre-fitted give different pictures, or where a frame that is "
+     "drawn "
+     "again has another picture or other counts. The scene's `debug` is left out.",
      "SCENE is described in docs/scene.md; no picture is written. What is written is described in "
      "docs/measuring.md."},
     {"author",

@@ -262,8 +262,8 @@ void readPoses(const YamlValue& value, ScenePoses& poses) {
 
 void readScene(const YamlValue& root, Scene& scene) {
   if (root.kind() == YamlKind::kNull) root.fail("the scene is empty", "begin with 'version: 1'");
-  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "poses", "environment", "crowd",
-                   "people", "camera", "light", "ground"});
+  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "debug", "poses", "environment",
+                   "crowd", "people", "camera", "light", "ground"});
   readVersion(root);
   readWardrobes(root, scene);
   if (const auto technique = root.find("technique")) {
@@ -271,8 +271,12 @@ void readScene(const YamlValue& root, Scene& scene) {
   }
   if (const auto output = root.find("output")) readOutput(*output, scene.output);
   if (const auto raster = root.find("raster")) {
-    constexpr RasterKind kKinds[] = {RasterKind::kAuto, RasterKind::kPipeline, RasterKind::kCompute};
-    scene.raster = kKinds[raster->word({"auto", "pipeline", "compute"})];
+    scene.raster = kAllRasterKinds[raster->word({"auto", "pipeline", "compute"})];
+  }
+  if (const auto debug = root.find("debug")) {
+    constexpr DebugKind kKinds[] = {DebugKind::kNone, DebugKind::kRasteriser, DebugKind::kPose,
+                                    DebugKind::kOverdraw};
+    scene.debug = kKinds[debug->word({"none", "rasteriser", "pose", "overdraw"})];
   }
   if (const auto poses = root.find("poses")) readPoses(*poses, scene.poses);
   if (const auto environment = root.find("environment")) {
@@ -291,6 +295,18 @@ void readScene(const YamlValue& root, Scene& scene) {
 }
 
 }  // namespace
+
+const char* toString(RasterKind kind) {
+  constexpr const char* kNames[] = {"auto", "pipeline", "compute"};
+  return kNames[static_cast<int>(kind)];
+}
+
+std::optional<RasterKind> parseRasterKind(std::string_view name) {
+  for (const RasterKind kind : kAllRasterKinds) {
+    if (name == toString(kind)) return kind;
+  }
+  return std::nullopt;
+}
 
 SceneOverride parseSceneOverride(const std::string& text) {
   const std::size_t equals = text.find('=');

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -146,6 +147,13 @@ struct SceneLight {
 
 /// Which rasteriser draws people. kAuto: the faster one for each, by counts and sizes.
 enum class RasterKind : std::uint8_t { kAuto, kPipeline, kCompute };
+inline constexpr RasterKind kAllRasterKinds[] = {RasterKind::kAuto, RasterKind::kPipeline,
+                                                 RasterKind::kCompute};
+const char* toString(RasterKind kind);  ///< "auto", "pipeline", "compute"
+std::optional<RasterKind> parseRasterKind(std::string_view name);
+
+/// What is laid over a picture, to tell how it was drawn.
+enum class DebugKind : std::uint8_t { kNone, kRasteriser, kPose, kOverdraw };
 
 /// How people are posed.
 struct ScenePoses {
@@ -165,6 +173,7 @@ struct Scene {
   Technique technique = Technique::kTagged;
   SceneOutput output;
   RasterKind raster = RasterKind::kAuto;
+  DebugKind debug = DebugKind::kNone;
   ScenePoses poses;
   SceneCrowd crowd;
   std::vector<ScenePerson> people;

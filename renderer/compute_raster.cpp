@@ -102,9 +102,9 @@ void ComputeRaster::createPipelines() {
     std::uint32_t lanes;
     vk::Bool32 to_sun = false, textured = false;
     std::int32_t samples = 1;
-    vk::Bool32 cut_out = false, hides_faces = false, shadows = true;
+    vk::Bool32 cut_out = false, hides_faces = false, shadows = true, counts = false;
   };
-  constexpr std::array<vk::SpecializationMapEntry, 7> kEntries = {{
+  constexpr std::array<vk::SpecializationMapEntry, 8> kEntries = {{
       {ENSEMBLE_CONSTANT_LANES, offsetof(Constants, lanes), sizeof(std::uint32_t)},
       {ENSEMBLE_CONSTANT_TO_SUN, offsetof(Constants, to_sun), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_TEXTURED, offsetof(Constants, textured), sizeof(vk::Bool32)},
@@ -112,6 +112,7 @@ void ComputeRaster::createPipelines() {
       {ENSEMBLE_CONSTANT_CUT_OUT, offsetof(Constants, cut_out), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_HIDE_FACES, offsetof(Constants, hides_faces), sizeof(vk::Bool32)},
       {ENSEMBLE_CONSTANT_SHADOWS, offsetof(Constants, shadows), sizeof(vk::Bool32)},
+      {ENSEMBLE_CONSTANT_COUNTS, offsetof(Constants, counts), sizeof(vk::Bool32)},
   }};
   const auto make = [&](const vk::raii::PipelineLayout& layout, std::span<const std::uint32_t> spirv,
                         Constants constants) {
@@ -144,6 +145,8 @@ void ComputeRaster::createPipelines() {
     sun_[i] =
         make_one(kRasterComp, {.lanes = lanes, .to_sun = true, .cut_out = i & 1u, .hides_faces = i >> 1});
   }
+  for (std::uint32_t i = 0; i < overdraw_.size(); ++i)
+    overdraw_[i] = make_one(kRasterComp, {.lanes = lanes, .cut_out = i, .counts = true});
   count_bins_ = make_one(kRasterBinsComp, {.lanes = lanes});
   sort_ = make_one(kRasterSortComp, {.lanes = lanes});
   resolve_ = make_one(kRasterResolveComp, {.lanes = lanes, .samples = 4});
@@ -153,6 +156,7 @@ void ComputeRaster::createPipelines() {
 const vk::raii::Pipeline& ComputeRaster::rasterPipeline(const Target& target,
                                                         const RasterItems::State& state) const {
   if (target.pass == Pass::kShadow) return sun_[(state.cut_out ? 1u : 0u) + (state.hides_faces ? 2u : 0u)];
+  if (target.pass == Pass::kOverdraw) return overdraw_[state.cut_out ? 1 : 0];
   return state.cut_out ? sampled(target).cut_out_raster : sampled(target).raster;
 }
 
@@ -251,21 +255,26 @@ bool ComputeRaster::fits(const TargetSize& size) const {
 ComputeRaster::Target ComputeRaster::makeTarget(Pass pass, const ViewTargets& targets) {
   using Usage = vk::BufferUsageFlagBits;
   Target target;
-  const bool to_sun = pass == Pass::kShadow;
+  const bool to_sun = pass == Pass::kShadow, counts = pass == Pass::kOverdraw;
   target.pass = pass;
   target.width = to_sun ? targets.size.shadow_size : targets.size.width;
   target.height = to_sun ? targets.size.shadow_size : targets.size.height;
   target.samples = pass == Pass::kPicture ? targets.size.samples : 1;
   const std::uint64_t pixels = std::uint64_t{target.width} * target.height;
-  const std::uint64_t band = to_sun ? 0 : std::min<std::uint64_t>(pixels, bandPixels(target.samples));
-  const auto buffer = [&](std::uint64_t bytes, const char* what) {
+  const std::uint64_t band =
+      to_sun || counts ? 0 : std::min<std::uint64_t>(pixels, bandPixels(target.samples));
+  const auto buffer = [&](std::uint64_t bytes, const char* what,
+                          gpu::Buffer::Kind kind = gpu::Buffer::Kind::kDevice) {
     return gpu::Buffer(
         device_, bytes,
-        Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferDst | Usage::eTransferSrc,
-        gpu::Buffer::Kind::kDevice, what);
+        Usage::eStorageBuffer | Usage::eUniformTexelBuffer | Usage::eTransferDst | Usage::eTransferSrc, kind,
+        what);
   };
-  target.visible =
-      buffer(pixels * (to_sun ? sizeof(float) : target.samples * kVisibleBytes), "the rasteriser's samples");
+  const std::uint64_t pixel_bytes = to_sun   ? sizeof(float)
+                                    : counts ? sizeof(std::uint32_t)
+                                             : target.samples * kVisibleBytes;
+  target.visible = buffer(pixels * pixel_bytes, "the rasteriser's samples",
+                          counts ? gpu::Buffer::Kind::kReadback : gpu::Buffer::Kind::kDevice);
   target.pixels = buffer(band * target.samples * 2 * kListedBytes, "the rasteriser's list of pixels");
   target.shaded =
       buffer(target.samples > 1 ? band * target.samples * kShadedBytes : 0, "the rasteriser's colours");

@@ -32,8 +32,9 @@ class ComputeRaster {
  public:
   /// What to see people from: the camera or the sun.
   enum class Eye : std::uint8_t { kCamera, kSun };
-  /// What is drawn: the picture, AOVs (from the camera, one sample) or the shadow map.
-  enum class Pass : std::uint8_t { kPicture, kAovs, kShadow };
+  /// What is drawn: the picture, AOVs (from the camera, one sample), the shadow map, or how often triangles
+  /// cover each pixel (from the camera, one sample).
+  enum class Pass : std::uint8_t { kPicture, kAovs, kShadow, kOverdraw };
 
   /// Somebody with a pose of its own.
   struct OwnPerson {
@@ -56,7 +57,9 @@ class ComputeRaster {
   struct Target {
     Pass pass = Pass::kPicture;
     std::uint32_t width = 0, height = 0, samples = 1;
-    gpu::Buffer visible;  ///< from the camera: depth and id of each sample; from the sun: depth of a texel
+    /// From the camera: depth and id of each sample; from the sun: depth of a texel. Overdraw: counts,
+    /// mapped.
+    gpu::Buffer visible;
     gpu::Buffer pixels, shaded, bins;
     vk::raii::BufferView seen_view = nullptr, listed_view = nullptr;  ///< of `visible` and `pixels`
     gpu::DescriptorSets sets;  ///< per pair of buffers and buffer of poses
@@ -143,6 +146,7 @@ class ComputeRaster {
   };
   const Sampled& sampled(const Target& target) const { return sampled_[target.samples > 1 ? 1 : 0]; }
   std::array<Sampled, 2> sampled_;
+  std::array<vk::raii::Pipeline, 2> overdraw_ = {nullptr, nullptr};  // cut out: 1
   std::array<vk::raii::Pipeline, 4> sun_ = {nullptr, nullptr, nullptr,
                                             nullptr};  // cut out: 1, hides faces: 2
   vk::raii::Pipeline count_bins_ = nullptr, sort_ = nullptr, resolve_ = nullptr, aov_ = nullptr;

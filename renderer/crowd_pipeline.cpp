@@ -112,7 +112,12 @@ vk::raii::Pipeline makePipeline(const gpu::Device& device, const vk::raii::Pipel
   using Component = vk::ColorComponentFlagBits;
   const std::vector<vk::PipelineColorBlendAttachmentState> blends(
       options.color_formats.size(),
-      {.colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA});
+      {.blendEnable = options.adds,
+       .srcColorBlendFactor = vk::BlendFactor::eOne,
+       .dstColorBlendFactor = vk::BlendFactor::eOne,
+       .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+       .dstAlphaBlendFactor = vk::BlendFactor::eOne,
+       .colorWriteMask = Component::eR | Component::eG | Component::eB | Component::eA});
   const vk::PipelineColorBlendStateCreateInfo blend{
       .attachmentCount = static_cast<std::uint32_t>(blends.size()), .pAttachments = blends.data()};
   const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = kDynamic.size(),

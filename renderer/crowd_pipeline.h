@@ -31,6 +31,7 @@ struct PipelineOptions {
   bool draws_people = true;        ///< vertices are GpuVertex; else the shader makes its own
   bool draws_environment = false;  ///< vertices are GpuStaticVertex, whatever draws_people says
   std::span<const vk::Format> color_formats = {};
+  bool adds = false;  ///< to the colours that are there, instead of replacing them
   std::uint32_t samples = 1;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  ///< reversed depth
   bool writes_depth = true;

@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/input_error.h"
+#include "renderer/debug_overlay.h"
 
 namespace ensemble {
 namespace {
@@ -172,8 +173,30 @@ void FrameLoop::render(std::span<const View> views, double seconds, std::span<Pi
     ENSEMBLE_CHECK(view.width > 0u && view.height > 0u);
     const Clock::time_point start = Clock::now();
     if (i == 0) state_.setTime(seconds);
-    drawView(view, start, picture);
+    if (view.debug == DebugKind::kNone) {
+      drawView(view, start, picture);
+    } else {
+      drawDebugged(view, start, picture);
+    }
   }
+}
+
+void FrameLoop::drawDebugged(const View& view, Clock::time_point start, Picture& picture) {
+  if (view.debug == DebugKind::kOverdraw) {
+    overdraw_.assign(std::size_t{view.width} * view.height, 0);
+    drawView(view, start, picture);
+    showOverdraw(overdraw_, picture.color);
+    return;
+  }
+  View with_people = view;
+  with_people.aovs.add(Aov::kCharacter);
+  drawView(with_people, start, picture);
+  const auto color_of = [&](std::uint32_t person) {
+    return view.debug == DebugKind::kPose ? colorOfPose(shown_.key(person))
+                                          : colorOfRasteriser(shown_.isComputed(person));
+  };
+  tintPeople(picture.character, color_of, picture.color);
+  if (!view.aovs.has(Aov::kCharacter)) picture.character.clear();
 }
 
 void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& picture) {
@@ -210,6 +233,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     timer_.addTo(stats.parts_ms);
     if (!view.aovs.empty()) recordAovs(view, slot);
     readAovs(slot.targets, view, picture);
+    if (view.debug == DebugKind::kOverdraw) countOverdraw(view, slot);
     if (view.coverage) countCoverage(view, slot, picture.coverage);
   }
   picture.stats = stats;
@@ -261,7 +285,8 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
              .post_set = {},
              .computed = {},
              .computed_shadow = {},
-             .computed_aovs = {}});
+             .computed_aovs = {},
+             .computed_overdraw = {}});
     slot->post_set = post_pass_.makeSet(device_, slot->targets);
     gpu::writeBuffer(device_, slot->view_set[0], ENSEMBLE_BINDING_VIEW, slot->view_buffer,
                      vk::DescriptorType::eUniformBuffer);
@@ -275,6 +300,10 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   if (!view.aovs.empty()) {
     if (!aov_pass_) aov_pass_ = std::make_unique<AovPass>(device_, layout_, assets_);
     if (environment_pass_) environment_pass_->prepareAovs();
+  }
+  if (view.debug == DebugKind::kOverdraw) {
+    (*found)->targets.addOverdraw(device_, limits_.max_buffer_bytes);
+    if (!overdraw_pass_) overdraw_pass_ = std::make_unique<OverdrawPass>(device_, layout_, assets_);
   }
   if (view.coverage && !coverage_pass_)
     coverage_pass_ = std::make_unique<CoveragePass>(device_, layout_, assets_);
@@ -403,6 +432,30 @@ void FrameLoop::countCoverage(const View& view, const Slot& slot, std::vector<st
   }
 }
 
+void FrameLoop::countOverdraw(const View& view, Slot& slot) {
+  using Stage = vk::PipelineStageFlagBits2;
+  const bool computed = computes(ComputeRaster::Eye::kCamera);
+  ComputeRaster::Target& target = slot.computed_overdraw;
+  if (computed) {
+    if (target.width == 0) target = compute_->makeTarget(ComputeRaster::Pass::kOverdraw, slot.targets);
+    compute_->prepare(slot.targets, target);
+  }
+  ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
+  const CrowdDraw draw{
+      .assets = &assets_, .layout = &layout_, .queues = &main_queues_, .view_set = slot.view_set[0]};
+  if (computed) {
+    compute_->record(commands_, draw.view_set, target, view.camera.near_plane);
+    gpu::recordBarrier(commands_, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
+                       Stage::eHost, vk::AccessFlagBits2::eHostRead);
+  }
+  overdraw_pass_->record(commands_, draw, slot.targets, view);
+  ENSEMBLE_VK(commands_.end());
+  submitAndWait();
+  std::span<const std::uint32_t> counted;
+  if (computed) counted = target.visible.mapped<std::uint32_t>();
+  OverdrawPass::collect(slot.targets, view, counted, overdraw_);
+}
+
 void FrameLoop::submitAndWait() {
   const vk::CommandBufferSubmitInfo submitted{.commandBuffer = *commands_};
   ENSEMBLE_VK(device_.queue().submit2(
@@ -425,9 +478,11 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
     add(queue.counts, number, stats.environment);
   };
   add(main_queues_.counts(), kMain, stats.main);
+  stats.people_triangles += main_queues_.counts().triangles;
   if (compute_) {
     const std::uint64_t computed = compute_->triangleCount(ComputeRaster::Eye::kCamera);
     stats.main.triangles += computed;
+    stats.people_triangles += computed;
     stats.triangles_computed += computed;
     const PoseCacheStats& poses = compute_->poses().stats();
     stats.poses = {.kept = poses.hits,

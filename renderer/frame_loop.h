@@ -13,6 +13,7 @@
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_state.h"
 #include "renderer/environment_pass.h"
+#include "renderer/overdraw_pass.h"
 #include "renderer/part_timer.h"
 #include "renderer/post_pass.h"
 #include "renderer/queue_buffers.h"
@@ -45,13 +46,16 @@ class FrameLoop {
     ViewTargets targets;
     gpu::Buffer view_buffer;
     gpu::DescriptorSets view_set, post_set;
-    ComputeRaster::Target computed, computed_shadow, computed_aovs;  // made when first needed
+    ComputeRaster::Target computed, computed_shadow, computed_aovs,
+        computed_overdraw;  // made when first needed
   };
   enum Pass : std::uint32_t { kShadow, kMain, kEnvironmentShadow, kEnvironmentMain, kPassCount };
 
   Slot& slotFor(const View& view, const TileGrid& grid, std::uint32_t shadow_size);
   /// Draws a view at the state's time, tile by tile; `start` is when its turn came.
   void drawView(const View& view, std::chrono::steady_clock::time_point start, Picture& picture);
+  /// The same with what View::debug lays over the picture, for which AOVs may be drawn besides.
+  void drawDebugged(const View& view, std::chrono::steady_clock::time_point start, Picture& picture);
   /// Finds who is in sight and who casts shadows, and decides how they are drawn.
   void choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size);
   /// @throws SystemError if a view asks for the compute rasteriser and can't have it
@@ -68,6 +72,8 @@ class FrameLoop {
   void recordAovs(const View& view, const Slot& slot);
   /// Adds what each person would cover of a tile.
   void countCoverage(const View& view, const Slot& slot, std::vector<std::uint32_t>& pixels);
+  /// Counts how often people's triangles cover each pixel of a tile.
+  void countOverdraw(const View& view, Slot& slot);
   void submitAndWait();
   /// Adds what the last submission drew.
   void addStats(bool drew_shadows, FrameStats& stats) const;
@@ -84,6 +90,7 @@ class FrameLoop {
   PostPass post_pass_;
   std::unique_ptr<AovPass> aov_pass_;            // made when first asked for
   std::unique_ptr<CoveragePass> coverage_pass_;  // likewise
+  std::unique_ptr<OverdrawPass> overdraw_pass_;  // likewise
   std::unique_ptr<ComputeRaster> compute_;       // null where it can't be
   std::unique_ptr<EnvironmentPass> environment_pass_;
   EnvironmentQueue main_environment_, shadow_environment_;
@@ -95,6 +102,7 @@ class FrameLoop {
   vk::raii::CommandBuffer commands_ = nullptr;
   vk::raii::Fence fence_ = nullptr;
   std::vector<std::unique_ptr<Slot>> slots_;  // oldest first
+  std::vector<std::uint32_t> overdraw_;       // of the view at hand, per pixel
   ViewPeople shown_;
   std::vector<float> longest_edges_;              // per person
   std::vector<std::uint32_t> visible_, casters_;  // all of them; the rest are parts of these

@@ -101,6 +101,7 @@ View viewOf(const Scene& scene, double seconds) {
   view.height = scene.output.height;
   view.samples = scene.output.samples;
   view.raster = scene.raster;
+  view.debug = scene.debug;
   view.snap_below = scene.poses.snap_below;
   view.background = scene.output.background;
   view.background_color = scene.output.background_color;

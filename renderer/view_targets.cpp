@@ -91,6 +91,19 @@ void ViewTargets::addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes) {
   aov_depth = gpu::Image(device, options, what);
 }
 
+void ViewTargets::addOverdraw(gpu::Device& device, std::uint64_t max_buffer_bytes) {
+  addAovs(device, max_buffer_bytes);
+  if (overdraw) return;
+  using Usage = vk::ImageUsageFlagBits;
+  overdraw = gpu::Image(device,
+                        {.width = size.width,
+                         .height = size.height,
+                         .format = kOverdrawFormat,
+                         .usage = Usage::eColorAttachment | Usage::eTransferSrc},
+                        fmt::format("overdraw of {} x {} pixels", size.width, size.height));
+  overdraw_readback = Readback(device, overdraw, sizeof(std::uint16_t), max_buffer_bytes);
+}
+
 vk::RenderingAttachmentInfo recordClearedDepth(const vk::raii::CommandBuffer& commands,
                                                const gpu::Image& depth, bool keep) {
   using Access = vk::AccessFlagBits2;

@@ -11,6 +11,7 @@
 namespace ensemble {
 
 inline constexpr auto kColorFormat = vk::Format::eR16G16B16A16Sfloat;
+inline constexpr auto kOverdrawFormat = vk::Format::eR16Sfloat;
 inline constexpr auto kDepthFormat = vk::Format::eD32Sfloat;
 /// In the order of Aov and ENSEMBLE_AOV_...
 inline constexpr std::array<vk::Format, 5> kAovFormats = {vk::Format::eR32Uint, vk::Format::eR32Uint,
@@ -56,6 +57,8 @@ struct ViewTargets {
   ViewTargets(gpu::Device& device, const TargetSize& target_size, std::uint64_t max_buffer_bytes);
   /// Adds what AOVs need, once.
   void addAovs(gpu::Device& device, std::uint64_t max_buffer_bytes);
+  /// Adds what counts overdraw, and aov_depth, once.
+  void addOverdraw(gpu::Device& device, std::uint64_t max_buffer_bytes);
   /// Adds what brings the linear picture to the host, once.
   void addLinearReadback(gpu::Device& device, std::uint64_t max_buffer_bytes);
 
@@ -72,6 +75,9 @@ struct ViewTargets {
   gpu::Image aov_depth;
   std::array<gpu::Image, 5> aovs;
   std::array<Readback, 5> aov_readbacks;
+
+  gpu::Image overdraw;
+  Readback overdraw_readback;
 };
 
 /// Makes a depth image ready to be cleared and drawn into, after other passes may have done so.

@@ -17,6 +17,8 @@ layout(local_size_x_id = ENSEMBLE_CONSTANT_LANES) in;  // one subgroup
 layout(constant_id = ENSEMBLE_CONSTANT_TO_SUN) const bool kToSun = false;
 layout(constant_id = ENSEMBLE_CONSTANT_CUT_OUT) const bool kCutOut = false;
 layout(constant_id = ENSEMBLE_CONSTANT_HIDE_FACES) const bool kHideFaces = false;
+// Counts how often each sample is covered, instead of keeping what is in front.
+layout(constant_id = ENSEMBLE_CONSTANT_COUNTS) const bool kCounts = false;
 
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_ENTRIES, std430) readonly buffer Entries {
   uint entries[];  // id of the person's first face of the item
@@ -41,9 +43,10 @@ layout(set = ENSEMBLE_SET_ASSETS, binding = ENSEMBLE_BINDING_SOURCE_FACES, std43
   uint source_faces[];
 };
 layout(set = ENSEMBLE_SET_TEXTURE, binding = 0) uniform sampler2DArray base_color_textures;
-// One of the two: to the camera depth and id, to the sun depth alone.
+// One of the three: to the camera depth and id, to the sun depth alone; how often a sample is covered.
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer Visible { uint64_t visible[]; };
 layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer SunDepth { uint sun_depth[]; };
+layout(set = ENSEMBLE_SET_RASTER, binding = ENSEMBLE_BINDING_RASTER_TARGET, std430) buffer Counts { uint counts[]; };
 
 const int kSubpixels = 1 << ENSEMBLE_SUBPIXEL_BITS;
 // Where samples are, in sub-pixels from a pixel's centre: Vulkan's standard places for 4.
@@ -85,7 +88,9 @@ Screen toScreen(vec3 position, vec2 uv, vec4 row[3]) {
 
 // What a sample gets: depth in front of everything else, then the lower id.
 void keep(int number, float depth, uint id) {
-  if (kToSun) {
+  if (kCounts) {
+    atomicAdd(counts[number], 1u);
+  } else if (kToSun) {
     atomicMax(sun_depth[number], floatBitsToUint(clamp(depth, 0.0, 1.0)));
   } else {
     atomicMax(visible[number], uint64_t(floatBitsToUint(depth)) << 32 | uint64_t(~id));

@@ -51,6 +51,7 @@
 #define ENSEMBLE_CONSTANT_TO_SUN 4
 #define ENSEMBLE_CONSTANT_SAMPLES 5
 #define ENSEMBLE_CONSTANT_SHADOWS 6
+#define ENSEMBLE_CONSTANT_COUNTS 7
 // Of the pass that skins poses: people's own, from the palette, instead of those at key frames.
 #define ENSEMBLE_CONSTANT_OWN_POSES 0
 

@@ -11,6 +11,7 @@
 #include "cli/bench_figures.h"
 #include "cli/bench_page.h"
 #include "cli/html_page.h"
+#include "cli/picture_error.h"
 #include "cli/report_page.h"
 #include "core/wardrobe.h"
 #include "tests/support/temporary_folder.h"
@@ -215,34 +216,74 @@ TEST(Pages, AWardrobeWithoutOutfitsHasAPage) {
   expectWholePage(reportPage(figures));
 }
 
-/// A row with given times; counts that tell rows apart.
-ContestRow row(Technique technique, std::size_t characters, std::vector<double> frame_ms) {
-  ContestRow result{.technique = technique, .characters = characters};
-  result.cpu_ms.assign(frame_ms.size(), 0.25);
-  result.frame_ms = std::move(frame_ms);
-  result.stats.characters_drawn = static_cast<std::uint32_t>(characters);
-  result.stats.main = {.draw_calls = 3, .triangles = 10 * characters, .vertex_invocations = 7 * characters};
-  result.stats.shadow.vertex_invocations = 0;
-  result.stats.gpu_mesh_bytes = 1000;
+/// A row with given times; counts that tell rows apart. In compute half of the people are drawn.
+ContestRow row(Technique technique, std::size_t characters, const std::vector<double>& frame_ms,
+               RasterKind raster = RasterKind::kPipeline) {
+  ContestRow result{.technique = technique, .raster = raster, .characters = characters};
+  for (const double time : frame_ms) {
+    FrameStats stats;
+    stats.frame_ms = time;
+    stats.cpu_ms = 0.25;
+    stats.characters_drawn = static_cast<std::uint32_t>(characters);
+    stats.main = {.draw_calls = 3, .triangles = 10 * characters, .vertex_invocations = 7 * characters};
+    stats.people_triangles = stats.main.triangles;
+    stats.shadow.vertex_invocations = 0;
+    stats.gpu_mesh_bytes = 1000;
+    if (raster == RasterKind::kCompute) {
+      stats.characters_computed = stats.characters_drawn / 2;
+      stats.triangles_computed = 4 * characters;
+      stats.poses = {.kept = 30, .skinned = result.rounds.empty() ? 10u : 0u, .kept_bytes = 4096};
+    }
+    result.rounds.push_back(stats);
+  }
   return result;
 }
 
+Json emptyBench() {
+  return {{"schema", "ensemble.bench/1"},
+          {"device", "<none>"},
+          {"width", 64},
+          {"height", 32},
+          {"samples", 1},
+          {"scene", "s.yaml"},
+          {"frames", {0}},
+          {"rounds", 3},
+          {"warm_up_rounds", 1},
+          {"rows", Json::array()},
+          {"ratios", Json::array()},
+          {"picture_errors", Json::array()}};
+}
+
 Json benchFigures() {
-  Json figures = {{"schema", "ensemble.bench/1"},
-                  {"device", "<none>"},
-                  {"width", 64},
-                  {"height", 32},
-                  {"samples", 1},
-                  {"scene", "s.yaml"},
-                  {"rounds", 3},
-                  {"rows", Json::array()},
-                  {"ratios", Json::array()}};
+  Json figures = emptyBench();
   for (const std::size_t people : {10u, 20u}) {
     const std::vector<ContestRow> rows = {row(Technique::kNaive, people, {10, 20, 40}),
                                           row(Technique::kPrefitted, people, {8, 10, 20}),
                                           row(Technique::kTagged, people, {4, 16, 24})};
-    addContest(rows, figures);
+    addContest(rows, {}, figures);
   }
+  return figures;
+}
+
+/// Two techniques by two rasterisers, over frames 5 to 7.
+Json rasterFigures() {
+  Json figures = emptyBench();
+  figures["frames"] = {5, 6, 7};
+  const std::vector<ContestRow> rows = {row(Technique::kPrefitted, 20, {30, 40, 50}),
+                                        row(Technique::kPrefitted, 20, {3, 4, 5}, RasterKind::kCompute),
+                                        row(Technique::kTagged, 20, {24, 36, 60}),
+                                        row(Technique::kTagged, 20, {6, 6, 6}, RasterKind::kCompute)};
+  std::vector<ContestError> errors;
+  for (const Technique technique : {Technique::kPrefitted, Technique::kTagged}) {
+    errors.push_back({.technique = technique,
+                      .characters = 20,
+                      .frames = 3,
+                      .sum_of_shares = 0.0015,
+                      .worst_share = 0.00125,
+                      .worst_frame = 6,
+                      .most = 77});
+  }
+  addContest(rows, errors, figures);
   return figures;
 }
 
@@ -266,10 +307,10 @@ TEST(Pages, RatiosAreTakenRoundByRound) {
 }
 
 TEST(Pages, WithoutNaiveTheFirstIsTheMeasure) {
-  Json figures = {{"rows", Json::array()}, {"ratios", Json::array()}};
+  Json figures = emptyBench();
   const std::vector<ContestRow> rows = {row(Technique::kPrefitted, 5, {2.0}),
                                         row(Technique::kTagged, 5, {3.0})};
-  addContest(rows, figures);
+  addContest(rows, {}, figures);
   ASSERT_EQ(figures["ratios"].size(), 1u);
   EXPECT_EQ(figures["ratios"][0]["versus"], "prefitted");
   EXPECT_DOUBLE_EQ(figures["ratios"][0]["frame_ms"], 1.5);
@@ -297,6 +338,105 @@ TEST(Pages, CsvOfTheBenchSaysWhatTheJsonSays) {
   EXPECT_EQ(tagged["frame_vs_prefitted_median"], figures["ratios"][5]["frame_ms_of_rounds"]["median"].dump());
 }
 
+TEST(Pages, RasterisersAreComparedWithinATechnique) {
+  const Json figures = rasterFigures();
+  std::vector<std::string> names;
+  for (const Json& ratios : figures["ratios"]) names.push_back(nameOfRatio(ratios));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"tagged / prefitted by pipeline", "tagged / prefitted by compute",
+                                      "prefitted by pipeline / compute", "tagged by pipeline / compute"}));
+  EXPECT_DOUBLE_EQ(figures["ratios"][0]["frame_ms"], 36.0 / 40.0);
+  EXPECT_DOUBLE_EQ(figures["ratios"][1]["frame_ms"], 6.0 / 4.0);
+  EXPECT_DOUBLE_EQ(figures["ratios"][2]["frame_ms"], 10.0);
+  EXPECT_DOUBLE_EQ(figures["ratios"][3]["frame_ms"], 6.0);
+  EXPECT_DOUBLE_EQ(figures["ratios"][3]["frame_ms_of_rounds"]["min"], 4.0);
+  const Json &pipeline = figures["rows"][2], &compute = figures["rows"][3];
+  EXPECT_EQ(pipeline["raster"], "pipeline");
+  EXPECT_EQ(pipeline["share_of_people_computed"], 0.0);
+  EXPECT_TRUE(pipeline["poses"]["share_kept"].is_null());
+  EXPECT_EQ(compute["raster"], "compute");
+  EXPECT_DOUBLE_EQ(compute["share_of_people_computed"], 0.5);
+  EXPECT_DOUBLE_EQ(compute["share_of_triangles_computed"], 0.4);
+  EXPECT_EQ(compute["poses"]["kept"], 90) << "in all rounds";
+  EXPECT_EQ(compute["poses"]["skinned"], 10);
+  EXPECT_DOUBLE_EQ(compute["poses"]["share_kept"], 0.9);
+  EXPECT_EQ(compute["poses"]["kept_bytes"], 4096);
+  EXPECT_THAT(benchTable(figures),
+              HasSubstr("tagged by compute, 20 people: in compute 50.0 % of the people drawn, "
+                        "40.0 % of their triangles; poses 90.00 % kept, 10 skinned in 3 "
+                        "rounds, 0.0 MiB\n"));
+  EXPECT_THAT(
+      benchTable(figures),
+      HasSubstr("tagged by pipeline and compute, 20 people: 0.125 % of the pixels that people cover differ "
+                "by more than 8 of 255 in the worst of 3 frames (6), 0.050 % in the mean, by 77 at most\n"));
+}
+
+TEST(Pages, CountsOfDifferentFramesAreThoseOfTheMiddleOne) {
+  Json figures = emptyBench();
+  ContestRow moving = row(Technique::kTagged, 20, {1, 2, 3, 4});
+  const std::uint64_t triangles[] = {500, 100, 300, 900};
+  for (std::size_t i = 0; i < 4; ++i) moving.rounds[i].main.triangles = triangles[i];
+  addContest(std::span(&moving, 1), {}, figures);
+  EXPECT_EQ(figures["rows"][0]["triangles"], 300);
+}
+
+TEST(Pages, CsvOfTheBenchTellsOfRasterisers) {
+  const Json figures = rasterFigures();
+  const auto rows = readCsv(benchCsv(figures));
+  ASSERT_EQ(rows.size(), 4u);
+  auto pipeline = rows[2], compute = rows[3];
+  EXPECT_EQ(pipeline["raster"], "pipeline");
+  EXPECT_EQ(pipeline["frame_vs_compute"], "6.0");
+  EXPECT_EQ(pipeline["frame_vs_prefitted"], "0.9");
+  EXPECT_EQ(compute["frame_vs_compute"], "");
+  EXPECT_EQ(compute["frame_vs_prefitted"], "1.5");
+  EXPECT_EQ(compute["share_of_people_computed"], "0.5");
+  EXPECT_EQ(compute["poses_kept"], "90");
+  EXPECT_EQ(compute["pose_bytes"], "4096");
+  EXPECT_EQ(pipeline["picture_vs_compute_worst"], "0.00125");
+  EXPECT_EQ(pipeline["picture_vs_compute_mean"], "0.0005");
+  EXPECT_EQ(pipeline["picture_vs_compute_most"], "77");
+  EXPECT_EQ(compute["picture_vs_compute_most"], "");
+}
+
+TEST(Pages, TheBenchsPageTellsOfRasterisers) {
+  const std::string page = benchPage(rasterFigures());
+  expectWholePage(page);
+  EXPECT_THAT(page, HasSubstr("<h1>Techniques and rasterisers compared: s.yaml</h1>"));
+  EXPECT_THAT(page, HasSubstr("3 frames of the scene (5 to 7) in turn"));
+  EXPECT_EQ(count(page, "<svg "), 6u) << "times by rasteriser and by technique, invocations by rasteriser";
+  EXPECT_THAT(page, HasSubstr("<td>tagged, compute</td><td>20</td><td>50.0 %</td><td>40.0 %</td><td>90</td>"
+                              "<td>10</td><td>90.00 %</td><td>4,096</td>"));
+  EXPECT_THAT(page,
+              HasSubstr("<td>tagged, pipeline and compute</td><td>20</td><td>3</td><td>0.125 %</td><td>6</td>"
+                        "<td>0.050 %</td><td>77</td>"));
+  EXPECT_THAT(page, HasSubstr("class=\"mark fill-compute\""));
+}
+
+/// A picture of one row, with who shows in each pixel; black.
+Picture blackRow(std::vector<std::uint32_t> people) {
+  Picture picture;
+  picture.color.width = static_cast<std::uint32_t>(people.size());
+  picture.color.height = 1;
+  picture.color.rgba.assign(4 * people.size(), 0);
+  picture.character = std::move(people);
+  return picture;
+}
+
+TEST(PictureError, IsOverThePixelsThatPeopleCover) {
+  Picture a = blackRow({0, 1, 1, 0, 2}), b = blackRow({0, 1, 0, 0, 3});
+  EXPECT_EQ(comparePictures(a, b).covered, 3u) << "in one picture or the other";
+  EXPECT_EQ(comparePictures(a, b).differing, 0u);
+  a.color.rgba[4 * 1 + 2] = 8;   // not seen
+  b.color.rgba[4 * 2 + 0] = 9;   // at a silhouette
+  a.color.rgba[4 * 3 + 1] = 40;  // a shadow beside people
+  const PictureError error = comparePictures(a, b);
+  EXPECT_EQ(error.differing, 2u);
+  EXPECT_EQ(error.most, 40);
+  EXPECT_DOUBLE_EQ(error.share(), 2.0 / 3.0);
+  EXPECT_EQ(comparePictures(blackRow({0, 0}), blackRow({0, 0})).share(), 0.0);
+}
+
 TEST(Pages, TheBenchsPageShowsItsFigures) {
   const std::string page = benchPage(benchFigures());
   expectWholePage(page);
@@ -310,7 +450,7 @@ TEST(Pages, TheBenchsPageShowsItsFigures) {
   EXPECT_THAT(page, HasSubstr("Counts of one frame, the same in every round<"));
   Json varying = benchFigures();
   varying["rows"][1]["vertex_invocations_differ_by"] = 3;
-  EXPECT_THAT(benchPage(varying), HasSubstr("the same in every round but for the vertex invocations"));
+  EXPECT_THAT(benchPage(varying), HasSubstr("the same in every round but for the vertex invocations<"));
   Json blind = benchFigures();
   for (Json& row : blind["rows"]) row["vertex_invocations"] = nullptr;
   EXPECT_THAT(benchPage(blind), HasSubstr("This device does not count vertex invocations."));

@@ -243,6 +243,27 @@ TEST_F(RenderCommand, ResumesWhereItWasKilled) {
   EXPECT_EQ(json("figures.json")["skipped"].size(), 0u) << "of another size";
 }
 
+TEST_F(RenderCommand, DebugIsInPicturesThatPeopleLookAt) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  ASSERT_EQ(run("render scene.yaml -o plain.png --frames 0").exit_code, 0);
+  for (const char* debug : {"rasteriser", "pose", "overdraw"}) {
+    const ProgramResult result =
+        run(std::string("render scene.yaml -o one.png --frames 0 --set debug=") + debug);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(bytes("one.png"), bytes("plain.png")) << debug;
+    EXPECT_FALSE(fs::exists(folder_ / "one.character.exr"));
+  }
+  const ProgramResult linear = run("render scene.yaml -o one.exr --frames 0 --set debug=pose");
+  EXPECT_EQ(linear.exit_code, 2);
+  EXPECT_EQ(
+      linear.err,
+      "ensemble: -o one.exr: what `debug` lays over a picture is no light, and not in an EXR; write .png, or "
+      "--set debug=none\n");
+  // Not compared: what is laid over a picture costs time of its own.
+  ASSERT_EQ(
+      run("bench scene.yaml --techniques tagged --rounds 1 --json b.json --set debug=overdraw").exit_code, 0);
+}
+
 TEST_F(RenderCommand, WrongUsageIsRefused) {
   const auto frames = [](const std::string& part) {
     return "ensemble: --frames: '" + part +
@@ -275,7 +296,7 @@ TEST_F(RenderCommand, BenchComparesTechniques) {
       run("bench scene.yaml --counts 3,9 --rounds 2 --json bench.json --csv bench.csv --html bench.html");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, StartsWith("technique "));
-  EXPECT_THAT(result.out, HasSubstr("tagged / naive, 9 people: "));
+  EXPECT_THAT(result.out, HasSubstr("tagged / naive by auto, 9 people: "));
   const nlohmann::json bench = json("bench.json");
   EXPECT_EQ(bench["schema"], "ensemble.bench/1");
   EXPECT_EQ(bench["width"], 96);
@@ -304,7 +325,91 @@ TEST_F(RenderCommand, BenchComparesTechniques) {
   EXPECT_LT(tagged["vertex_invocations"], naive["vertex_invocations"]);
 }
 
+/// The scene with 120 people at key frames, which `auto` gives to the compute rasteriser.
+const std::string kManySmall = " --set crowd.count=120 --set output.samples=1 --set poses.snap_below=1000 ";
+
+TEST_F(RenderCommand, BenchComparesRasterisersOverFrames) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const ProgramResult result =
+      run("bench scene.yaml --techniques prefitted,tagged --rasterisers pipeline,compute,auto --frames 2-5 "
+          "--rounds 6 --set camera.orbit.seconds=2 --json bench.json --csv bench.csv --html bench.html" +
+          kManySmall);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json bench = json("bench.json");
+  EXPECT_EQ(bench["frames"], (nlohmann::json{2, 3, 4, 5}));
+  EXPECT_EQ(bench["warm_up_rounds"], 4);
+  ASSERT_EQ(bench["rows"].size(), 6u);
+  ASSERT_EQ(bench["ratios"].size(), 3u + 2 * 3u);
+  ASSERT_EQ(bench["picture_errors"].size(), 2 * 3u);
+  const nlohmann::json& pipeline = bench["rows"][3];
+  EXPECT_EQ(pipeline["technique"], "tagged");
+  EXPECT_EQ(pipeline["raster"], "pipeline");
+  EXPECT_EQ(pipeline["share_of_people_computed"], 0.0);
+  for (const std::size_t i : {4u, 5u}) {
+    const nlohmann::json& row = bench["rows"][i];
+    EXPECT_GT(row["share_of_people_computed"], 0.9) << row;
+    EXPECT_GT(row["share_of_triangles_computed"], 0.5);
+    EXPECT_EQ(row["triangles"], pipeline["triangles"]);
+    EXPECT_LT(row["vertex_invocations"], pipeline["vertex_invocations"]);
+    EXPECT_GT(row["poses"]["kept"], 0);
+    EXPECT_EQ(row["poses"]["skinned"], 0) << "the warm-up rounds have skinned all";
+    EXPECT_EQ(row["poses"]["share_kept"], 1.0);
+    EXPECT_EQ(row["pose_bytes"], bench["rows"][4]["pose_bytes"]) << "each has a cache of its own";
+  }
+  for (const nlohmann::json& error : bench["picture_errors"]) {
+    EXPECT_EQ(error["frames"], 4);
+    EXPECT_LE(error["mean_share"], error["worst_share"]);
+  }
+  EXPECT_THAT(bytes("bench.html"), HasSubstr("<h1>Techniques and rasterisers compared: scene.yaml</h1>"));
+  EXPECT_THAT(bytes("bench.csv"), HasSubstr(",picture_vs_compute_worst,"));
+}
+
+TEST_F(RenderCommand, BenchDrawsTheFramesThatRenderDraws) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  const std::string camera =
+      " --set 'camera.keys=[{time: 0, position: [0, 1.6, 5], target: [0, 0.9, 0]}, {time: 1, position: [0, "
+      "1.6, 1]}]'";
+  ASSERT_EQ(run("render scene.yaml -o all/ --json render.json" + camera + kManySmall).exit_code, 0);
+  const nlohmann::json frames = json("render.json")["frames"];
+  ASSERT_GT(frames[0]["characters_drawn"], frames[3]["characters_drawn"]) << "the camera goes nearer";
+  for (const int frame : {0, 3}) {
+    ASSERT_EQ(run("bench scene.yaml --techniques tagged --rounds 2 --json bench.json --frames " +
+                  std::to_string(frame) + camera + kManySmall)
+                  .exit_code,
+              0);
+    const nlohmann::json row = json("bench.json")["rows"][0];
+    for (const char* key :
+         {"characters_drawn", "characters_computed", "triangles", "triangles_computed", "draw_calls"})
+      EXPECT_EQ(row[key], frames[frame][key]) << frame << " " << key;
+  }
+}
+
+TEST_F(RenderCommand, BenchWithoutEnoughWarmUpSkinsPoses) {
+  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  ASSERT_EQ(run("bench scene.yaml --techniques tagged --rasterisers compute --frames 0-19 --warm-up 1 --json "
+                "b.json" +
+                kManySmall + "--set crowd.count=3")
+                .exit_code,
+            0);
+  const nlohmann::json bench = json("b.json");
+  EXPECT_EQ(bench["rounds"], 20) << "once through the frames";
+  EXPECT_EQ(bench["warm_up_rounds"], 1);
+  EXPECT_GT(bench["rows"][0]["poses"]["skinned"], 0);
+  EXPECT_LT(bench["rows"][0]["poses"]["share_kept"], 1.0);
+}
+
 TEST_F(RenderCommand, BenchRefusesWhatItDoesNotKnow) {
+  const ProgramResult rasterisers = run("bench scene.yaml --rasterisers pipeline,gpu");
+  EXPECT_EQ(rasterisers.exit_code, 2);
+  EXPECT_EQ(rasterisers.err,
+            "ensemble: --rasterisers: unknown rasteriser 'gpu'; choose from auto,pipeline,compute\n");
+  EXPECT_EQ(run("bench scene.yaml --warm-up 0").exit_code, 2);
+  EXPECT_EQ(run("bench scene.yaml --frames 0-10000").err,
+            "ensemble: --frames: 10001 frames are more than the 10000 that bench draws; list fewer\n");
+  EXPECT_EQ(
+      run("bench scene.yaml --frames 3-1").err,
+      "ensemble: --frames: '3-1' is no frame and no range of frames; write numbers and ranges A-B from 0 to "
+      "999999, parted by commas: 0-9,20\n");
   EXPECT_EQ(run("bench scene.yaml --techniques naive,taged").err,
             "ensemble: --techniques: unknown technique 'taged'; choose from naive,prefitted,tagged\n");
   const ProgramResult counts = run("bench scene.yaml --counts 10,0");

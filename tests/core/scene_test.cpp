@@ -148,13 +148,13 @@ TEST(SceneErrors, WhatMustBeThere) {
             "input: scenes/a.yaml: 2:11: wardrobe is a list; give a wardrobe folder, or a map of them");
   EXPECT_EQ(errorOf("just text"),
             "input: scenes/a.yaml: 1:1: the file is 'just text'; give a map of the keys version, wardrobe, "
-            "technique, output, raster, poses, environment, crowd, people, camera, light, ground");
+            "technique, output, raster, debug, poses, environment, crowd, people, camera, light, ground");
 }
 
 TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(errorAfterHead("outptu: {}\n"),
             "3:1: unknown key 'outptu'; write 'output' (known: version, wardrobe, technique, output, "
-            "raster, poses, environment, crowd, people, camera, light, ground)");
+            "raster, debug, poses, environment, crowd, people, camera, light, ground)");
   EXPECT_EQ(errorAfterHead("output:\n  widht: 3\n"),
             "4:3: unknown key 'widht' in output; write 'width' (known: width, height, samples, frames, fps, "
             "background)");
@@ -164,6 +164,24 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
             "position, heading, scale, tint)");
   EXPECT_EQ(errorAfterHead("technique: taged\n"),
             "3:12: technique is 'taged'; give 'naive', 'prefitted' or 'tagged'; the nearest is 'tagged'");
+}
+
+TEST(Scene, DebugTellsHowAPictureWasDrawn) {
+  EXPECT_EQ(parse(kHead).debug, DebugKind::kNone);
+  EXPECT_EQ(parse(kHead + "debug: none\n").debug, DebugKind::kNone);
+  EXPECT_EQ(parse(kHead + "debug: rasteriser\n").debug, DebugKind::kRasteriser);
+  EXPECT_EQ(parse(kHead + "debug: pose\n").debug, DebugKind::kPose);
+  EXPECT_EQ(parse(kHead + "debug: overdraw\n").debug, DebugKind::kOverdraw);
+  const SceneOverride override("debug", "pose");
+  EXPECT_EQ(parseScene(kHead, "scenes/a.yaml", std::span(&override, 1)).debug, DebugKind::kPose);
+  EXPECT_EQ(errorAfterHead("debug: poses\n"),
+            "3:8: debug is 'poses'; give 'none', 'rasteriser', 'pose' or 'overdraw'; the nearest is 'pose'");
+}
+
+TEST(Scene, RasterisersHaveNames) {
+  for (const RasterKind kind : kAllRasterKinds) EXPECT_EQ(parseRasterKind(toString(kind)), kind);
+  EXPECT_EQ(parseRasterKind("gpu"), std::nullopt);
+  EXPECT_EQ(parse(kHead + "raster: compute\n").raster, RasterKind::kCompute);
 }
 
 TEST(Scene, AnEnvironmentTakesThePlaceOfTheGround) {
@@ -411,7 +429,7 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
           << in_table << " is not in docs/scene.md";
     }
   }
-  EXPECT_EQ(key_count, 12 + 6 + 2 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
+  EXPECT_EQ(key_count, 13 + 6 + 2 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
 }
 
 TEST(ReferenceScene, ItsAlternativesAreScenesToo) {
