@@ -28,10 +28,11 @@ POSES = ("keys", "interpolated")
 ORDERS = ("exported", "optimised")
 # Our rows: a label, and what is set in the scene. What the program has no key for is skipped with a message.
 OURS = {
-    "ours, pipeline": {"raster": "pipeline", "poses": "{snap_below: 0}"},
-    "ours, compute": {"raster": "compute", "poses": "{snap_below: 1e6}"},
+    "ours, pipeline": {"raster": "pipeline"},
+    "ours, compute": {"raster": "compute"},
 }
-KEYS_ONLY = {"ours, compute"}  # whom the compute rasteriser draws, it draws at key frames
+# Everybody is on a key, or nobody is brought to one.
+OUR_POSES = {"keys": "{snap_below: 1e6}", "interpolated": "{snap_below: 0}"}
 # The peers that draw in a browser: a label, and three_crowd.py's driver.
 BROWSERS = {"three.js, llvmpipe": "llvmpipe", "three.js, SwiftShader": "swiftshader"}
 XVFB = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
@@ -138,11 +139,12 @@ class Peers:
 
     def draw_ours(self, row, count, picture):
         scene = self.our_scene(row.poses, count)
-        settings = [part for key, value in OURS[row.label].items() for part in ("--set", f"{key}={value}")]
+        values = {**OURS[row.label], "poses": OUR_POSES[row.poses]}
+        settings = [part for key, value in values.items() for part in ("--set", f"{key}={value}")]
         if picture:
             run([self.chosen.ensemble, "render", "-q", scene, "-o", picture, *settings], self.chosen.timeout)
         told = run([self.chosen.ensemble, "bench", "-q", scene, "--techniques", "tagged", "--rounds", self.chosen.frames,
-                    "--json", "-", *settings], self.chosen.timeout)
+                    "--frames", f"0-{self.chosen.frames - 1}", "--json", "-", *settings], self.chosen.timeout)
         bench = json.loads(told[told.index("{"):])
         measured = bench["rows"][0]
         return {"peer": "ours", "characters": measured["characters"], "triangles": measured["triangles"],
@@ -165,7 +167,7 @@ class Peers:
 
 
 def choose_rows(peers, words):
-    rows = [Row(label, poses) for label in OURS for poses in POSES if poses == "keys" or label not in KEYS_ONLY]
+    rows = [Row(label, poses) for label in OURS for poses in POSES]
     rows += [Row(label, poses, order) for label in ("OGRE", *BROWSERS) for order in ORDERS for poses in POSES]
     rows = [row for row in rows if not words or any(word in row.name() for word in words)]
     if any(row.label in BROWSERS for row in rows):

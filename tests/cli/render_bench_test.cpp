@@ -138,7 +138,8 @@ TEST_F(RenderCommand, AnEnvironmentIsCountedApart) {
   result = run("bench scene.yaml --rounds 1 --json b.json" + options);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, said) << "once, not for each technique";
-  for (const nlohmann::json& row : json("b.json")["rows"]) {
+  const nlohmann::json figures = json("b.json");
+  for (const nlohmann::json& row : figures["rows"]) {
     EXPECT_EQ(row["environment"]["triangles"], 2);
     EXPECT_EQ(row["environment_bytes"], 3 * 24 + 3 * 2);
   }
