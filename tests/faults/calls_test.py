@@ -113,7 +113,7 @@ def plain_commands(calls, device):
 def main():
     chosen = options()
     kit = Kit(chosen.ensemble)
-    calls = Calls(kit, chosen.shim, chosen.full)
+    calls = Calls(kit, os.path.abspath(chosen.shim), chosen.full)
     wardrobe_commands(calls)
     device = "Vulkan device: none" not in kit.run(["--version"]).stdout
     if not device:
