@@ -1,6 +1,9 @@
 #include "core/hash.h"
 
-#include <openssl/evp.h>
+// The functions of SHA-256 itself, deprecated since OpenSSL 3.0: the general ones (EVP) allocate, and where
+// memory ends just then OpenSSL 3.0 crashes in a lock that it could not make.
+#define OPENSSL_SUPPRESS_DEPRECATED
+#include <openssl/sha.h>
 
 #include <array>
 #include <cstdint>
@@ -10,18 +13,15 @@
 namespace ensemble {
 
 struct Sha256::State {
-  EVP_MD_CTX* context = EVP_MD_CTX_new();
-  State() { ENSEMBLE_CHECK(EVP_DigestInit_ex(context, EVP_sha256(), nullptr) == 1); }
-  ~State() { EVP_MD_CTX_free(context); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  SHA256_CTX context{};
+  State() { ENSEMBLE_CHECK(SHA256_Init(&context) == 1); }
 };
 
 Sha256::Sha256() : state_(std::make_unique<State>()) {}
 Sha256::~Sha256() = default;
 
 Sha256& Sha256::feed(std::span<const std::byte> bytes) {
-  ENSEMBLE_CHECK(EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()) == 1);
+  ENSEMBLE_CHECK(SHA256_Update(&state_->context, bytes.data(), bytes.size()) == 1);
   return *this;
 }
 
@@ -31,9 +31,8 @@ Sha256& Sha256::feed(std::string_view text) {
 }
 
 std::string Sha256::hex() {
-  std::array<unsigned char, 32> digest{};
-  unsigned int length = 0;
-  ENSEMBLE_CHECK(EVP_DigestFinal_ex(state_->context, digest.data(), &length) == 1);
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  ENSEMBLE_CHECK(SHA256_Final(digest.data(), &state_->context) == 1);
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string text;
   for (const unsigned char byte : digest) {
