@@ -81,6 +81,8 @@ class ComputeRaster {
             std::span<const std::uint32_t> numbers);
   bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
   std::uint64_t triangleCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->triangleCount() : 0; }
+  /// That rasterise.
+  std::uint64_t dispatchCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->batches().size() : 0; }
   const PosePool& poses() const { return poses_; }
 
   /// Whether a picture of a size can be drawn with the device's buffers.

@@ -34,6 +34,14 @@ vk::raii::Sampler makeShadowSampler(const gpu::Device& device) {
                                              .borderColor = vk::BorderColor::eFloatOpaqueBlack}));
 }
 
+/// The compute rasteriser transforms each triangle's corners for itself.
+void addComputed(const ComputeRaster& compute, ComputeRaster::Eye eye, PassStats& pass) {
+  const std::uint64_t triangles = compute.triangleCount(eye);
+  pass.draw_calls += compute.dispatchCount(eye);
+  pass.triangles += triangles;
+  if (pass.vertex_invocations) *pass.vertex_invocations += 3 * triangles;
+}
+
 /// Those of `people` for whom `is_computed` holds, and the others.
 template <class IsComputed>
 void divide(const std::vector<std::uint32_t>& people, const IsComputed& is_computed,
@@ -420,7 +428,7 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
   stats.people_triangles += main_queues_.counts().triangles;
   if (compute_) {
     const std::uint64_t computed = compute_->triangleCount(ComputeRaster::Eye::kCamera);
-    stats.main.triangles += computed;
+    addComputed(*compute_, ComputeRaster::Eye::kCamera, stats.main);
     stats.people_triangles += computed;
     stats.triangles_computed += computed;
     const PoseCacheStats& poses = compute_->poses().stats();
@@ -433,7 +441,7 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
   add_environment(main_environment_, kEnvironmentMain, stats.main);
   if (!drew_shadows) return;
   add(shadow_queues_.counts(), kShadow, stats.shadow);
-  if (compute_) stats.shadow.triangles += compute_->triangleCount(ComputeRaster::Eye::kSun);
+  if (compute_) addComputed(*compute_, ComputeRaster::Eye::kSun, stats.shadow);
   add_environment(shadow_environment_, kEnvironmentShadow, stats.shadow);
 }
 

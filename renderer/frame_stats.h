@@ -9,9 +9,13 @@ namespace ensemble {
 
 /// One pass over the crowd and the environment.
 struct PassStats {
-  std::uint64_t draw_calls = 0;  ///< of people: one per sub-mesh with a queue; of the environment: per piece
+  /// Of people: one per sub-mesh with a queue, and the dispatches that rasterise in compute; of the
+  /// environment: per piece.
+  std::uint64_t draw_calls = 0;
   std::uint64_t triangles = 0;   ///< drawn, of all instances
-  std::optional<std::uint64_t> vertex_invocations;  ///< measured; none where the device can't
+  /// Of the pipeline's vertex shaders, measured; and the corners of the triangles that the compute rasteriser
+  /// draws. None where the device can't count.
+  std::optional<std::uint64_t> vertex_invocations;
 };
 
 /// Poses of the compute rasteriser.
