@@ -12,7 +12,7 @@ struct PassStats {
   /// Of people: one per sub-mesh with a queue, and the dispatches that rasterise in compute; of the
   /// environment: per piece.
   std::uint64_t draw_calls = 0;
-  std::uint64_t triangles = 0;   ///< drawn, of all instances
+  std::uint64_t triangles = 0;  ///< drawn, of all instances
   /// Of the pipeline's vertex shaders, measured; and the corners of the triangles that the compute rasteriser
   /// draws. None where the device can't count.
   std::optional<std::uint64_t> vertex_invocations;

@@ -351,7 +351,7 @@ TEST_F(RenderCommand, BenchComparesRasterisersOverFrames) {
     EXPECT_GT(row["share_of_people_computed"], 0.9) << row;
     EXPECT_GT(row["share_of_triangles_computed"], 0.5);
     EXPECT_EQ(row["triangles"], pipeline["triangles"]);
-    EXPECT_LT(row["vertex_invocations"], pipeline["vertex_invocations"]);
+    EXPECT_GE(row["vertex_invocations"], 3 * row["triangles_computed"].get<std::uint64_t>()) << "each corner";
     EXPECT_GT(row["poses"]["kept"], 0);
     EXPECT_EQ(row["poses"]["skinned"], 0) << "the warm-up rounds have skinned all";
     EXPECT_EQ(row["poses"]["share_kept"], 1.0);
