@@ -120,6 +120,8 @@ class ComputeRaster {
               std::span<const std::uint32_t> numbers);
   void writeSets(const Work& work, const ViewTargets& targets, Target& target) const;
   std::uint32_t binCount() const;
+  /// @throws SystemError if the entries of listed pixels have no room for them
+  void refuseTooManyBins() const;
   Push pushFor(const Target& target, float near_plane) const;
   std::uint32_t hasWideIndices(std::uint32_t pair) const;
   /// Lists and shades, band by band: `bind` binds all for one bin's pixels, `finish` ends a band.

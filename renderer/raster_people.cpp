@@ -9,9 +9,7 @@ namespace {
 constexpr double kSubpixels = 1 << ENSEMBLE_SUBPIXEL_BITS;
 /// Pixels that a triangle may reach along an axis: edge functions of 2^15 sub-pixels squared fill 31 bits.
 constexpr float kMostReach = 126.0f;
-/// Pixels from the middle of a picture, which has at most 16,384: 2^22 sub-pixels from a tile are still
-/// rounded rightly.
-constexpr float kMostCoordinate = 8100.0f;
+constexpr float kMostCoordinate = 4.0e6f;  ///< pixels from the picture's middle, in 32 bits of sub-pixels
 
 glm::dvec4 rowOf(const Mat4& m, int row) { return {m[0][row], m[1][row], m[2][row], m[3][row]}; }
 

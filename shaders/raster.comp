@@ -64,23 +64,17 @@ struct CutOut {
   float alpha, cutoff, layer;
 };
 
-// To the nearest whole number, even ones where it is in the middle; below 2^22 either way.
-ivec2 rounded(vec2 v) {
-  const float kUnitsLast = 12582912.0;  // 1.5 * 2^23: there the last bit of a float is worth 1
-  return ivec2(floatBitsToInt(v.x + kUnitsLast), floatBitsToInt(v.y + kUnitsLast)) - floatBitsToInt(kUnitsLast);
-}
-
 Screen toScreen(vec3 position, vec2 uv, vec4 row[3]) {
   vec4 p = vec4(position, 1.0);
   vec3 c = vec3(dot(row[0], p), dot(row[1], p), dot(row[2], p));
   Screen s;
   s.uv = uv;
   if (kToSun) {
-    s.at = rounded(c.xy);
+    s.at = ivec2(roundEven(c.xy));
     s.depth = c.z;
   } else {
     float q = 1.0 / c.z;
-    s.at = rounded(c.xy * q);
+    s.at = ivec2(roundEven(c.xy * q));
     s.depth = near_plane * q;
   }
   return s;
@@ -117,18 +111,20 @@ bool isCutOut(CutOut mask, Screen a, Screen b, Screen c, float per_area, ivec3 e
 void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uint id, bool is_there) {
   ivec2 ab = b.at - a.at, ac = c.at - a.at;
   int area = ac.x * ab.y - ac.y * ab.x;
-  bool swaps = double_sided && area < 0;
-  ivec2 new_ab = swaps ? ac : ab;
-  ac = swaps ? ab : ac;
-  ab = new_ab;
-  area = swaps ? -area : area;
-  vec2 depths = swaps ? vec2(c.depth, b.depth) : vec2(b.depth, c.depth);
+  if (double_sided && area < 0) {
+    Screen t = b;
+    b = c;
+    c = t;
+    ab = b.at - a.at;
+    ac = c.at - a.at;
+    area = -area;
+  }
   ivec2 least = min(a.at, min(b.at, c.at)), greatest = max(a.at, max(b.at, c.at));
   ivec2 low = max((least + (kSubpixels - 1 - kReach)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
   ivec2 high = min((greatest + kReach) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
   bool fits = ((greatest.x - least.x) | (greatest.y - least.y)) < 1 << 15;
   if (is_there && fits && area > 0 && low.x <= high.x && low.y <= high.y) {
-    ivec2 bc = ac - ab, from = low << ENSEMBLE_SUBPIXEL_BITS;
+    ivec2 bc = c.at - b.at, from = low << ENSEMBLE_SUBPIXEL_BITS;
     // Twice the areas opposite of b and c, and of a, at the first pixel; steps to the right and down.
     int e_b = ac.y * (a.at.x - from.x) - ac.x * (a.at.y - from.y);
     int e_c = ab.x * (a.at.y - from.y) - ab.y * (a.at.x - from.x);
@@ -136,20 +132,20 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uin
     ivec3 by_x = ivec3(bc.y, -ac.y, ab.y), by_y = ivec3(-bc.x, ac.x, -ab.x);
     ivec3 right = by_x << ENSEMBLE_SUBPIXEL_BITS, down = by_y << ENSEMBLE_SUBPIXEL_BITS;
     float per_area = 1.0 / float(area);
-    float by_b = (depths.x - a.depth) * per_area, by_c = (depths.y - a.depth) * per_area;
+    float by_b = (b.depth - a.depth) * per_area, by_c = (c.depth - a.depth) * per_area;
     float nearest = a.depth;
     if (kToSun) {
       vec2 slope = abs(vec2(by_b * float(right.y) + by_c * float(right.z), by_b * float(down.y) + by_c * float(down.z)));
       nearest += near_plane * max(slope.x, slope.y);
     }
     // An edge owns its points where it is a top or a left one.
-    ivec3 owned = ivec3(greaterThan(right * 2 + ivec3(greaterThan(down, ivec3(0))), ivec3(0))) - 1;
+    ivec3 owned = ivec3(greaterThan(right * 2 + sign(down), ivec3(0))) - 1;
     ivec3 e = ivec3(e_a, e_b, e_c) + owned;
     int columns = high.x - low.x, x = 0;
     ivec3 next_row = down - columns * right;
     int pixel = low.y * int(width) + low.x, last = high.y * int(width) + high.x, next_pixel = int(width) - columns;
     [[dont_unroll]] for (;;) {
-      bool is_cut = kCutOut && isCutOut(mask, a, swaps ? c : b, swaps ? b : c, per_area, e, right, down);
+      bool is_cut = kCutOut && isCutOut(mask, a, b, c, per_area, e, right, down);
       if (kSamples == 1) {
         if ((e.x | e.y | e.z) >= 0 && !is_cut) keep(pixel, nearest + by_b * float(e.y) + by_c * float(e.z), id);
       } else {

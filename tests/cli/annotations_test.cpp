@@ -17,20 +17,11 @@ using testing::ProgramResult;
 class Annotations : public ::testing::Test {
  protected:
   void SetUp() override {
-    const ProgramResult version = testing::runProgram("--version", ".");
-    if (version.out.find("Vulkan device: none") != std::string::npos)
-      GTEST_SKIP() << "there is no Vulkan device";
-    std::ofstream(folder_ / "scene.yaml")
-        << "version: 1\nwardrobe: " << fs::absolute("tests/formats/wardrobe-1").string()
-        << "\noutput: {width: 96, height: 64, samples: 4, frames: 3, fps: 10}\n"
-           "crowd: {count: 12, seed: 3, placement: {spacing: 0.7}}\n"
-           "camera: {position: [0, 1.6, 4], target: [0, 0.9, 0]}\n";
+    if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
+    testing::writeTwelvePeople(folder_ / "scene.yaml", 3);
   }
   ProgramResult run(const std::string& arguments) { return testing::runProgram(arguments, folder_.path()); }
-  std::string text(const std::string& file) {
-    std::ifstream stream(folder_ / file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string text(const std::string& file) { return testing::bytesOf(folder_ / file); }
   nlohmann::json json(const std::string& file) { return nlohmann::json::parse(text(file)); }
 
   testing::TemporaryFolder folder_;

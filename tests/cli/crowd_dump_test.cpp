@@ -34,15 +34,10 @@ people:
   }
   void write(const std::string& file, const std::string& text) { std::ofstream(folder_ / file) << text; }
   ProgramResult run(const std::string& arguments) { return testing::runProgram(arguments, folder_.path()); }
-  static bool hasDevice() {
-    const ProgramResult version = testing::runProgram("--version", ".");
-    return version.out.find("Vulkan device: none") == std::string::npos;
-  }
   std::map<std::string, std::string> filesIn(const std::string& name) const {
     std::map<std::string, std::string> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / name)) {
-      std::ifstream stream(entry.path(), std::ios::binary);
-      files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(stream), {}};
+      files[entry.path().filename().string()] = testing::bytesOf(entry.path());
     }
     return files;
   }
@@ -52,7 +47,7 @@ people:
 };
 
 TEST_F(CrowdDump, ReadBackGivesTheSamePicturesAndAovsByteForByte) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const std::string options = " --frames 0,5 --aov character,region,face,depth,normal --dump-crowd ";
   ProgramResult result = run("render scene.yaml -o one/" + options + "one/crowd.csv");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -87,7 +82,7 @@ TEST_F(CrowdDump, MistakesAreToldBeforeAnythingIsDrawn) {
   EXPECT_EQ(
       result.err,
       "ensemble: --dump-crowd -: --json writes to standard output, too; give one of them a file's name\n");
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   result = run(render + "nowhere/crowd.csv");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err,

@@ -30,23 +30,16 @@ class RenderCommand : public ::testing::Test {
              "camera: {position: [0, 1.6, 5], target: [0, 0.9, 0]}\n";
   }
   ProgramResult run(const std::string& arguments) { return testing::runProgram(arguments, folder_.path()); }
-  static bool hasDevice() {
-    const ProgramResult version = testing::runProgram("--version", ".");
-    return version.out.find("Vulkan device: none") == std::string::npos;
-  }
   nlohmann::json json(const std::string& file) {
     return nlohmann::json::parse(std::ifstream(folder_ / file));
   }
-  std::string bytes(const std::string& file) {
-    std::ifstream stream(folder_ / file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string bytes(const std::string& file) { return testing::bytesOf(folder_ / file); }
 
   testing::TemporaryFolder folder_;
 };
 
 TEST_F(RenderCommand, WritesFramesAndFigures) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result = run("render scene.yaml -o frames/ --json figures.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "") << "no bar where standard error is no terminal";
@@ -69,7 +62,7 @@ TEST_F(RenderCommand, WritesFramesAndFigures) {
 }
 
 TEST_F(RenderCommand, AFrameIsTheSameAloneAndInAnyOrder) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   ASSERT_EQ(run("render scene.yaml -o all/").exit_code, 0);
   ASSERT_EQ(run("render scene.yaml -o some/ --frames 3,1-2,3").exit_code, 0);
   ASSERT_EQ(run("render scene.yaml -o one.png --frames 2").exit_code, 0);
@@ -82,7 +75,7 @@ TEST_F(RenderCommand, AFrameIsTheSameAloneAndInAnyOrder) {
 }
 
 TEST_F(RenderCommand, AovsAreExplained) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result = run("render scene.yaml -o one.png --frames 0 --aov character,normal");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(fs::exists(folder_ / "one.character.exr"));
@@ -120,7 +113,7 @@ TEST_F(RenderCommand, WithoutADeviceOneLineTellsHowToMend) {
 }
 
 TEST_F(RenderCommand, AnEnvironmentIsCountedApart) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   testing::TestGlb set = testing::triangleGlb();
   set.add("cameras", {{"type", "perspective"}});
   const std::vector<std::byte> glb = set.bytes();
@@ -148,7 +141,7 @@ TEST_F(RenderCommand, AnEnvironmentIsCountedApart) {
 }
 
 TEST_F(RenderCommand, APictureLargerThanATileIsDrawn) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result =
       run("render scene.yaml -o one.png --frames 0 --set output.width=16384 --set output.height=20 --json "
           "f.json");
@@ -158,7 +151,7 @@ TEST_F(RenderCommand, APictureLargerThanATileIsDrawn) {
 }
 
 TEST_F(RenderCommand, WritesLinearPicturesAndVideos) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   ProgramResult result = run("render scene.yaml -o l/a_%02d.exr --frames 1-2 --json figures.json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(json("figures.json")["frames"][1]["file"], "l/a_02.exr");
@@ -192,14 +185,13 @@ TEST_F(RenderCommand, AVideoOfWhatItCantHoldIsRefused) {
 std::map<std::string, std::string> filesIn(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    std::ifstream stream(entry.path(), std::ios::binary);
-    files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(stream), {}};
+    files[entry.path().filename().string()] = testing::bytesOf(entry.path());
   }
   return files;
 }
 
 TEST_F(RenderCommand, ResumesWhereItWasKilled) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const std::string options = "--set output.frames=40 --aov face,depth ";
   ASSERT_EQ(run("render scene.yaml -o whole/ " + options).exit_code, 0);
   fs::create_directory(folder_ / "cut");
@@ -245,7 +237,7 @@ TEST_F(RenderCommand, ResumesWhereItWasKilled) {
 }
 
 TEST_F(RenderCommand, DebugIsInPicturesThatPeopleLookAt) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   ASSERT_EQ(run("render scene.yaml -o plain.png --frames 0").exit_code, 0);
   for (const char* debug : {"rasteriser", "pose", "overdraw"}) {
     const ProgramResult result =
@@ -283,7 +275,7 @@ TEST_F(RenderCommand, WrongUsageIsRefused) {
 }
 
 TEST_F(RenderCommand, ValidationIsClean) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result =
       run("render scene.yaml -o one.png --frames 1 --aov character,region,face,depth,normal --validate");
   if (result.err.find("the validation layer is not installed") != std::string::npos)
@@ -292,7 +284,7 @@ TEST_F(RenderCommand, ValidationIsClean) {
 }
 
 TEST_F(RenderCommand, BenchComparesTechniques) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result =
       run("bench scene.yaml --counts 3,9 --rounds 2 --json bench.json --csv bench.csv --html bench.html");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -330,7 +322,7 @@ TEST_F(RenderCommand, BenchComparesTechniques) {
 const std::string kManySmall = " --set crowd.count=120 --set output.samples=1 --set poses.snap_below=1000 ";
 
 TEST_F(RenderCommand, BenchComparesRasterisersOverFrames) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const ProgramResult result =
       run("bench scene.yaml --techniques prefitted,tagged --rasterisers pipeline,compute,auto --frames 2-5 "
           "--rounds 6 --set camera.orbit.seconds=2 --json bench.json --csv bench.csv --html bench.html" +
@@ -366,7 +358,7 @@ TEST_F(RenderCommand, BenchComparesRasterisersOverFrames) {
 }
 
 TEST_F(RenderCommand, BenchDrawsTheFramesThatRenderDraws) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   const std::string camera =
       " --set 'camera.keys=[{time: 0, position: [0, 1.6, 5], target: [0, 0.9, 0]}, {time: 1, position: [0, "
       "1.6, 1]}]'";
@@ -386,7 +378,7 @@ TEST_F(RenderCommand, BenchDrawsTheFramesThatRenderDraws) {
 }
 
 TEST_F(RenderCommand, BenchWithoutEnoughWarmUpSkinsPoses) {
-  if (!hasDevice()) GTEST_SKIP() << "there is no Vulkan device";
+  if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
   ASSERT_EQ(run("bench scene.yaml --techniques tagged --rasterisers compute --frames 0-19 --warm-up 1 --json "
                 "b.json" +
                 kManySmall + "--set crowd.count=3")

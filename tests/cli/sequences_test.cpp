@@ -21,8 +21,7 @@ Files filesIn(const fs::path& folder) {
   Files files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
+    files[fs::relative(entry.path(), folder).string()] = testing::bytesOf(entry.path());
   }
   return files;
 }
@@ -30,14 +29,8 @@ Files filesIn(const fs::path& folder) {
 class Sequences : public ::testing::Test {
  protected:
   void SetUp() override {
-    const ProgramResult version = testing::runProgram("--version", ".");
-    if (version.out.find("Vulkan device: none") != std::string::npos)
-      GTEST_SKIP() << "there is no Vulkan device";
-    std::ofstream(folder_ / "scene.yaml")
-        << "version: 1\nwardrobe: " << fs::absolute("tests/formats/wardrobe-1").string()
-        << "\noutput: {width: 96, height: 64, samples: 4, frames: 11, fps: 10}\n"
-           "crowd: {count: 12, seed: 3, placement: {spacing: 0.7}}\n"
-           "camera: {position: [0, 1.6, 4], target: [0, 0.9, 0]}\n";
+    if (!testing::hasVulkanDevice()) GTEST_SKIP() << "there is no Vulkan device";
+    testing::writeTwelvePeople(folder_ / "scene.yaml", 11);
   }
   /// Runs `ensemble render` in a folder of its own. @param arguments after the scene
   ProgramResult render(const std::string& name, const std::string& arguments) {
