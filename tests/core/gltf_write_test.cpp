@@ -199,6 +199,36 @@ TEST(GltfWrite, RoundTripThroughDraco) {
   expectNear(asset, readGlb(writeGlb(asset, options), "x.glb", keepNumbers()), options);
 }
 
+// Exporters compress what is painted on vertices, too. Written under another name: the writer paints nothing.
+TEST(GltfWrite, PaintIsReadFromDraco) {
+  RawAsset asset = makeAsset();
+  std::vector<std::byte> bytes = [&] {
+    GlbWriteOptions options;
+    options.draco = true;
+    return writeGlb(asset, options);
+  }();
+  const std::string written = "\"_TEMPLATE_VERTEX\"", read = "\"_HIDE\"           ";  // of one length
+  auto* text = reinterpret_cast<char*>(bytes.data());
+  int replaced = 0;
+  for (std::size_t i = 0; i + written.size() <= bytes.size(); ++i) {
+    if (std::string_view(text + i, written.size()) != written) continue;
+    std::copy(read.begin(), read.end(), text + i);
+    ++replaced;
+  }
+  ASSERT_GE(replaced, 2) << "among the attributes and in the extension";
+  const RawAsset back = readGlb(bytes, "x.glb", keepNumbers());
+  std::size_t painted = 0;
+  for (std::size_t m = 0; m < back.meshes.size(); ++m) {
+    for (std::size_t p = 0; p < back.meshes[m].primitives.size(); ++p) {
+      const std::vector<std::uint32_t>& numbers = asset.meshes[m].primitives[p].template_vertices;
+      EXPECT_THAT(back.meshes[m].primitives[p].hide,
+                  ::testing::ElementsAreArray(std::vector<float>(numbers.begin(), numbers.end())));
+      painted += numbers.size();
+    }
+  }
+  EXPECT_GT(painted, 0u);
+}
+
 TEST(GltfWrite, DracoKeepsNumbersOfVerticesThatQuantisationMakesEqual) {
   RawAsset asset = makeAsset();
   for (RawVertex& vertex : asset.meshes[0].primitives[1].vertices) {

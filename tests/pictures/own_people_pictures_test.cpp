@@ -48,12 +48,16 @@ class OwnPeoplePictures : public ::testing::TestWithParam<Sex> {
     wardrobe_.push_back(loadWardrobe(folder_ / "w"));
   }
 
-  std::vector<Picture> draw(const Item& item, const Clip& clip, double seconds, Technique technique) {
-    const Scene scene = testing::sceneOfOne(item.name, clip.name, technique, kSize);
-    renderer_.load(scene, wardrobe_);
+  void load(const Item& item, const Clip& clip) {
+    naive_.load(testing::sceneOfOne(item.name, clip.name, Technique::kNaive, kSize), wardrobe_);
+    const Scene scene = testing::sceneOfOne(item.name, clip.name, Technique::kTagged, kSize);
+    tagged_.load(scene, wardrobe_);
     views_ = testing::viewsFromAllSides(scene);
+  }
+
+  std::vector<Picture> draw(Renderer& renderer, double seconds) const {
     std::vector<Picture> pictures(views_.size());
-    renderer_.render(views_, seconds, pictures);
+    renderer.render(views_, seconds, pictures);
     return pictures;
   }
 
@@ -87,9 +91,9 @@ class OwnPeoplePictures : public ::testing::TestWithParam<Sex> {
     holes.inside += isBack(item, garment, tagged.face[pixel] - 1, pose, camera) ? 1 : 0;
   }
 
+  /// @pre load() of both
   Holes look(const Item& item, const Clip& clip, double seconds) {
-    const auto naive = draw(item, clip, seconds, Technique::kNaive),
-               tagged = draw(item, clip, seconds, Technique::kTagged);
+    const std::vector<Picture> naive = draw(naive_, seconds), tagged = draw(tagged_, seconds);
     const float key = static_cast<float>(seconds / double{clip.seconds} * (clip.key_count - 1));
     const std::vector<Mat4> pose = skinningMatricesAt(wardrobe_[0].body.skeleton, clip, key);
     Holes holes;
@@ -103,7 +107,7 @@ class OwnPeoplePictures : public ::testing::TestWithParam<Sex> {
   testing::TemporaryFolder folder_;
   std::vector<Wardrobe> wardrobe_;
   std::vector<View> views_;
-  Renderer renderer_;
+  Renderer naive_, tagged_;
 };
 
 TEST_P(OwnPeoplePictures, HardlyMissWhatTheirClothesHide) {
@@ -114,7 +118,8 @@ TEST_P(OwnPeoplePictures, HardlyMissWhatTheirClothesHide) {
     Holes of_item;
     for (const Clip& clip : wardrobe_[0].body.clips) {
       if (!testing::isFull() && !sample.contains(clip.name)) continue;
-      const int steps = testing::isFull() ? 3 : 2;
+      const int steps = testing::isFull() ? static_cast<int>(clip.key_count - 1) / 4 : 2;
+      load(item, clip);
       for (int step = 0; step < steps; ++step)  // between key frames, too
         of_item.add(look(item, clip, double{clip.seconds} * (step + 0.3) / steps));
     }
