@@ -112,6 +112,7 @@ Json toJson(const ContestRow& row) {
           {"characters_posed", middle(&FrameStats::characters_posed)},
           {"characters_computed", middle(&FrameStats::characters_computed)},
           {"triangles_computed", middle(&FrameStats::triangles_computed)},
+          {"triangles_hidden", middle(&FrameStats::triangles_hidden)},
           {"share_of_people_computed",
            shareOf(row, &FrameStats::characters_computed, &FrameStats::characters_drawn)},
           {"share_of_triangles_computed",

@@ -262,8 +262,8 @@ void readPoses(const YamlValue& value, ScenePoses& poses) {
 
 void readScene(const YamlValue& root, Scene& scene) {
   if (root.kind() == YamlKind::kNull) root.fail("the scene is empty", "begin with 'version: 1'");
-  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "debug", "poses", "environment",
-                   "crowd", "people", "camera", "light", "ground"});
+  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "occlusion", "debug", "poses",
+                   "environment", "crowd", "people", "camera", "light", "ground"});
   readVersion(root);
   readWardrobes(root, scene);
   if (const auto technique = root.find("technique")) {
@@ -273,6 +273,7 @@ void readScene(const YamlValue& root, Scene& scene) {
   if (const auto raster = root.find("raster")) {
     scene.raster = kAllRasterKinds[raster->word({"auto", "pipeline", "compute"})];
   }
+  if (const auto occlusion = root.find("occlusion")) scene.occlusion = occlusion->boolean();
   if (const auto debug = root.find("debug")) {
     constexpr DebugKind kKinds[] = {DebugKind::kNone, DebugKind::kRasteriser, DebugKind::kPose,
                                     DebugKind::kOverdraw};

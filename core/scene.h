@@ -173,6 +173,7 @@ struct Scene {
   Technique technique = Technique::kTagged;
   SceneOutput output;
   RasterKind raster = RasterKind::kAuto;
+  bool occlusion = false;  ///< people whom nearer ones hide are left out by the compute rasteriser
   DebugKind debug = DebugKind::kNone;
   ScenePoses poses;
   SceneCrowd crowd;

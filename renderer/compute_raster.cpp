@@ -44,6 +44,11 @@ std::uint32_t listGroups(std::uint32_t pixels) {
   return (pixels + ENSEMBLE_GROUP_PIXELS - 1) / ENSEMBLE_GROUP_PIXELS;
 }
 
+/// Where the device writes the groups that it picks of a batch of the second round.
+std::uint32_t firstPickedGroup(const RasterPlan& plan, const PlanBatch& batch) {
+  return static_cast<std::uint32_t>(plan.groups().size()) + batch.first_group - plan.firstLateGroup();
+}
+
 void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
   gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
                      Stage::eComputeShader | Stage::eDrawIndirect,
@@ -61,20 +66,25 @@ struct ComputeRaster::Push {
 };
 
 ComputeRaster::ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
-                             const CrowdState& state, const ComputeRasterOptions& options)
+                             const CrowdState& state, const CrowdExtents& extents,
+                             const ComputeRasterOptions& options)
     : device_(device),
       layout_(layout),
       assets_(assets),
       options_(options),
       poses_(device, assets, state, options.pose_cache_bytes, options.max_buffer_bytes),
-      items_(device, assets, poses_) {
+      items_(device, assets, poses_),
+      occlusion_(device) {
   materials_view_ = assets.materials().makeTexelView(device, vk::Format::eR32G32B32A32Uint);
   tints_view_ = assets.tints().makeTexelView(device);
+  boxes_ = gpu::uploadBuffer(device, std::as_bytes(std::span(extents.boxes)),
+                             vk::BufferUsageFlagBits::eUniformTexelBuffer, "the boxes of runs of triangles");
+  boxes_view_ = boxes_.makeTexelView(device);
   createPipelines();
   camera_.eye = Eye::kCamera;
   sun_work_.eye = Eye::kSun;
   for (Work* work : {&camera_, &sun_work_}) {
-    work->plan = std::make_unique<RasterPlan>(items_.planItems(work->eye == Eye::kSun),
+    work->plan = std::make_unique<RasterPlan>(items_.planItems(extents, work->eye == Eye::kSun),
                                               items_.shown(work->eye == Eye::kSun),
                                               device.subgroupSize() * ENSEMBLE_RASTER_RUN);
   }
@@ -160,6 +170,19 @@ const vk::raii::Pipeline& ComputeRaster::rasterPipeline(const Target& target,
   return state.cut_out ? sampled(target).cut_out_raster : sampled(target).raster;
 }
 
+std::uint64_t ComputeRaster::triangleCount(Eye eye) const {
+  return hasWork(eye) ? workOf(eye).plan->triangleCount() - hiddenTriangleCount(eye) : 0;
+}
+
+std::uint64_t ComputeRaster::hiddenTriangleCount(Eye eye) const {
+  const Work& work = workOf(eye);
+  if (work.people.empty() || !work.plan->hasSecondRound()) return 0;
+  std::uint64_t hidden = work.plan->lateTriangleCount();
+  const std::span<const GpuRasterBatch> batches = work.batches.mapped<GpuRasterBatch>();
+  for (std::size_t i = 0; i < work.plan->batches().size(); ++i) hidden -= batches[i].triangle_count;
+  return hidden;
+}
+
 std::uint32_t ComputeRaster::binCount() const {
   return static_cast<std::uint32_t>(items_.bins().size() * std::max<std::size_t>(poses_.buffers().size(), 1));
 }
@@ -212,6 +235,7 @@ ComputeRaster::Target ComputeRaster::makeTarget(Pass pass, const ViewTargets& ta
       buffer(target.samples > 1 ? band * target.samples * kShadedBytes : 0, "the rasteriser's colours");
   target.seen_view = target.visible.makeTexelView(device_, vk::Format::eR32G32Uint);
   target.listed_view = target.pixels.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
+  if (!to_sun) target.occlusion = occlusion_.makeTarget(target.width, target.height, target.samples);
   if (pass != Pass::kAovs) return target;
   target.aov_set = gpu::DescriptorSets(device_, aov_layout_, kAovBindings, 1);
   for (std::uint32_t i = 0; i < targets.aovs.size(); ++i)
@@ -242,6 +266,17 @@ void ComputeRaster::prepare(const ViewTargets& targets, Target& target) {
 }
 
 void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Target& target) const {
+  const gpu::Image& depth = target.pass == Pass::kAovs ? targets.aov_depth : targets.depth;
+  if (target.pass != Pass::kShadow) {
+    occlusion_.writeSet(target.occlusion, {.seen = target.seen_view,
+                                           .occludees = work.occludees_view,
+                                           .boxes = boxes_view_,
+                                           .depth = depth,
+                                           .entries = work.entries,
+                                           .work = work.work,
+                                           .groups = work.groups,
+                                           .batches = work.batches});
+  }
   for (std::size_t i = 0; i < target.sets.size(); ++i) {
     const vk::DescriptorSet set = target.sets[i];
     const RasterItems::Pair& pair = items_.pairs()[i % items_.pairs().size()];
@@ -268,7 +303,6 @@ void ComputeRaster::writeSets(const Work& work, const ViewTargets& targets, Targ
     buffer(ENSEMBLE_BINDING_RASTER_PIXELS, target.pixels);
     buffer(ENSEMBLE_BINDING_RASTER_BINS, target.bins);
     const auto readable = vk::ImageLayout::eShaderReadOnlyOptimal;
-    const gpu::Image& depth = target.pass == Pass::kAovs ? targets.aov_depth : targets.depth;
     gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DEPTH, depth, &sampler_, readable);
     const gpu::Image& drawn = targets.samples ? targets.samples : targets.linear;
     gpu::writeImage(device_, set, ENSEMBLE_BINDING_RASTER_DRAWN, drawn, &sampler_, readable);
@@ -294,31 +328,67 @@ std::uint32_t ComputeRaster::hasWideIndices(std::uint32_t pair) const {
 }
 
 void ComputeRaster::record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
-                           const Target& target, float near_plane) const {
+                           const Target& target, float near_plane) {
   const bool to_sun = target.pass == Pass::kShadow;
+  Work& work = workOf(eyeOf(target.pass));
+  const std::vector<PlanBatch>& batches = work.plan->batches();
   gpu::recordBarrier(commands, Stage::eComputeShader | Stage::eTransfer, {}, Stage::eTransfer,
                      Access::eTransferWrite);
   commands.fillBuffer(target.visible.handle(), 0, VK_WHOLE_SIZE, 0);
+  const std::uint64_t groups = work.plan->groups().size();
+  if (work.plan->hasSecondRound()) {
+    commands.fillBuffer(work.groups.handle(), groups * sizeof(GpuRasterGroup),
+                        (groups - work.plan->firstLateGroup()) * sizeof(GpuRasterGroup), ENSEMBLE_NO_WORK);
+  }
   gpu::recordBarrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eComputeShader,
                      Access::eShaderStorageRead | Access::eShaderStorageWrite);
   Push push = pushFor(target, to_sun ? kShadowSlopeBias : near_plane);
-  for (const PlanBatch& batch : workOf(eyeOf(target.pass)).plan->batches()) {
-    const RasterItems::State& state = items_.states()[batch.state];
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *rasterPipeline(target, state));
-    const std::array<vk::DescriptorSet, 4> sets = {
-        view_set, target.sets[batch.pose_buffer * items_.pairs().size() + state.pair],
-        layout_.assetSet(items_.pairs()[state.pair].index_chunk), assets_.textures().set(state.texture_set)};
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
-                                nullptr);
-    push.first_group = batch.first_group;
-    push.group_count = batch.group_count;
-    push.wide_indices = hasWideIndices(state.pair);
-    commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-    gpu::recordDispatch(commands, batch.group_count, ENSEMBLE_RASTER_GROUPS_X);
+  std::size_t next = 0;
+  for (; next < batches.size() && !batches[next].is_late; ++next) {
+    recordBatch(commands, view_set, target, batches[next], push);
+    gpu::recordDispatch(commands, batches[next].group_count);
+  }
+  if (next < batches.size()) recordOcclusion(commands, target, near_plane, work);
+  for (; next < batches.size(); ++next) {
+    PlanBatch picked = batches[next];
+    picked.first_group = firstPickedGroup(*work.plan, picked);
+    recordBatch(commands, view_set, target, picked, push);
+    commands.dispatchIndirect(work.batches.handle(),
+                              next * sizeof(GpuRasterBatch) + offsetof(GpuRasterBatch, groups_x));
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
-                     Stage::eComputeShader | Stage::eTransfer,
-                     Access::eShaderStorageRead | Access::eTransferRead);
+                     Stage::eComputeShader | Stage::eTransfer | Stage::eHost,
+                     Access::eShaderStorageRead | Access::eTransferRead | Access::eHostRead);
+}
+
+void ComputeRaster::recordBatch(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set,
+                                const Target& target, const PlanBatch& batch, Push& push) const {
+  const RasterItems::State& state = items_.states()[batch.state];
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *rasterPipeline(target, state));
+  const std::array<vk::DescriptorSet, 4> sets = {
+      view_set, target.sets[batch.pose_buffer * items_.pairs().size() + state.pair],
+      layout_.assetSet(items_.pairs()[state.pair].index_chunk), assets_.textures().set(state.texture_set)};
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, ENSEMBLE_SET_VIEW, sets,
+                              nullptr);
+  push.first_group = batch.first_group;
+  push.group_count = batch.group_count;
+  push.wide_indices = hasWideIndices(state.pair);
+  commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+}
+
+void ComputeRaster::recordOcclusion(const vk::raii::CommandBuffer& commands, const Target& target,
+                                    float near_plane, Work& work) const {
+  const std::span<GpuRasterBatch> batches = work.batches.mapped<GpuRasterBatch>();
+  std::fill(batches.begin(), batches.end(), GpuRasterBatch{});
+  for (std::size_t i = 0; i < work.plan->batches().size(); ++i)
+    batches[i].first_group = firstPickedGroup(*work.plan, work.plan->batches()[i]);
+  occlusion_.record(commands, target.occlusion,
+                    {.plan = *work.plan,
+
+                     .triangles_per_group = device_.subgroupSize() * ENSEMBLE_RASTER_RUN,
+                     .near_plane = near_plane,
+                     .hides = target.pass != Pass::kOverdraw,
+                     .drawn_hides = drawn_hides_});
 }
 
 void ComputeRaster::recordShadowMap(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
@@ -342,7 +412,7 @@ void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, vk::Desc
                               nullptr);
   commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sampled(target).list);
-  gpu::recordDispatch(commands, listGroups(push.pixel_count), ENSEMBLE_RASTER_GROUPS_X);
+  gpu::recordDispatch(commands, listGroups(push.pixel_count));
   recordComputeBarrier(commands);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *count_bins_);
   commands.dispatch(1, 1, 1);
@@ -399,7 +469,7 @@ void ComputeRaster::recordColor(const vk::raii::CommandBuffer& commands, vk::Des
     if (target.samples == 1) return;
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *resolve_);
     commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-    gpu::recordDispatch(commands, listGroups(push.pixel_count), ENSEMBLE_RASTER_GROUPS_X);
+    gpu::recordDispatch(commands, listGroups(push.pixel_count));
   };
   recordBands(commands, view_set, target, view.camera.near_plane, bind, resolve);
   gpu::recordBarrier(commands, targets.linear,

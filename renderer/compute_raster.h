@@ -13,8 +13,11 @@
 #include <vector>
 
 #include "renderer/crowd_assets.h"
+#include "renderer/crowd_extents.h"
 #include "renderer/crowd_layout.h"
 #include "renderer/crowd_state.h"
+#include "renderer/occlusion_bounds.h"
+#include "renderer/occlusion_pass.h"
 #include "renderer/pose_pool.h"
 #include "renderer/raster_items.h"
 #include "renderer/raster_people.h"
@@ -50,7 +53,9 @@ class ComputeRaster {
     std::vector<OwnPerson> own;      ///< those, in this order
     std::uint32_t number = 0;        ///< changes when a buffer is another one
     gpu::Buffer rows, who, entries, work, groups;
-    vk::raii::BufferView rows_view = nullptr, who_view = nullptr;
+    /// /// Of the second round: per person GpuOccludee; per batch GpuRasterBatch.
+    gpu::Buffer occludees, batches;
+    vk::raii::BufferView rows_view = nullptr, who_view = nullptr, occludees_view = nullptr;
   };
 
   /// What a pass draws into, with a view's slot.
@@ -64,23 +69,33 @@ class ComputeRaster {
     vk::raii::BufferView seen_view = nullptr, listed_view = nullptr;  ///< of `visible` and `pixels`
     gpu::DescriptorSets sets;  ///< per pair of buffers and buffer of poses
     gpu::DescriptorSets aov_set;
+    OcclusionPass::Target occlusion;
     std::uint32_t work_number = 0, pose_buffers = 0;
   };
 
   /// What it refers to must outlive it. @pre device.canRasterise()
   ComputeRaster(gpu::Device& device, const CrowdLayout& layout, const CrowdAssets& assets,
-                const CrowdState& state, const ComputeRasterOptions& options);
+                const CrowdState& state, const CrowdExtents& extents, const ComputeRasterOptions& options);
 
   /// People whom ids can tell apart.
   std::size_t mostPeople() const { return std::size_t{1} << (32 - camera_.plan->faceBits()); }
+
+  /// Whether triangles that nearer people hide are to be left out.
+  struct Occlusion {
+    bool is_on = false;
+    bool drawn_hides = false;  ///< the graphics pipeline draws what may hide people
+  };
 
   void beginFrame() { poses_.beginFrame(); }
   /// Plans an eye's work. @param numbers of people in the crowd, ascending; who is between key frames has its
   /// palette queued
   void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
-            std::span<const std::uint32_t> numbers);
+            std::span<const std::uint32_t> numbers, const Occlusion& occlusion);
   bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
-  std::uint64_t triangleCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->triangleCount() : 0; }
+  /// What was drawn of the plan; once the device is done with it.
+  std::uint64_t triangleCount(Eye eye) const;
+  /// /// What was left out of it; likewise.
+  std::uint64_t hiddenTriangleCount(Eye eye) const;
   /// That rasterise.
   std::uint64_t dispatchCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->batches().size() : 0; }
   const PosePool& poses() const { return poses_; }
@@ -95,7 +110,7 @@ class ComputeRaster {
   void recordPoses(const vk::raii::CommandBuffer& commands) { poses_.record(commands); }
   /// Clears the target and rasterises.
   void record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
-              float near_plane) const;
+              float near_plane);
   /// Fills the shadow map with what record() left, in layout eTransferDstOptimal, and leaves it there.
   static void recordShadowMap(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
                               const Target& target);
@@ -116,8 +131,15 @@ class ComputeRaster {
   const vk::raii::Pipeline& rasterPipeline(const Target& target, const RasterItems::State& state) const;
   void createPipelines();
   void planWork(Work& work, const CrowdState& state);
+  /// Who is far away is left to the second round.
+  void chooseRounds(Work& work, const ScreenRows& rows, const CrowdState& state,
+                    std::span<const std::uint32_t> numbers);
+  /// Makes room for as many bytes; true if the buffer is another one now.
+  bool grow(Work& work, gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage);
   void upload(Work& work, const ScreenRows& rows, const CrowdState& state,
               std::span<const std::uint32_t> numbers);
+  void uploadOccludees(Work& work, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+                       std::span<const std::uint32_t> numbers);
   void writeSets(const Work& work, const ViewTargets& targets, Target& target) const;
   std::uint32_t binCount() const;
   /// @throws SystemError if the entries of listed pixels have no room for them
@@ -125,6 +147,10 @@ class ComputeRaster {
   Push pushFor(const Target& target, float near_plane) const;
   std::uint32_t hasWideIndices(std::uint32_t pair) const;
   /// Lists and shades, band by band: `bind` binds all for one bin's pixels, `finish` ends a band.
+  void recordBatch(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
+                   const PlanBatch& batch, Push& push) const;
+  void recordOcclusion(const vk::raii::CommandBuffer& commands, const Target& target, float near_plane,
+                       Work& work) const;
   template <class Bind, class Finish>
   void recordBands(const vk::raii::CommandBuffer& commands, vk::DescriptorSet view_set, const Target& target,
                    float near_plane, const Bind& bind, const Finish& finish) const;
@@ -139,6 +165,11 @@ class ComputeRaster {
   RasterItems items_;
   vk::raii::BufferView materials_view_ = nullptr, tints_view_ = nullptr;
   Work camera_, sun_work_;
+  OcclusionPass occlusion_;
+  gpu::Buffer boxes_;  // of CrowdExtents
+  vk::raii::BufferView boxes_view_ = nullptr;
+  bool drawn_hides_ = false;
+  std::vector<float> distances_, sorted_distances_;  // of the work at hand
   vk::raii::Sampler sampler_ = nullptr;
   vk::raii::DescriptorSetLayout set_layout_ = nullptr, aov_layout_ = nullptr;
   vk::raii::PipelineLayout pipeline_layout_ = nullptr, aov_pipeline_layout_ = nullptr;

@@ -7,9 +7,14 @@
 #include "renderer/compute_raster.h"
 
 namespace ensemble {
+namespace {
+
+using Usage = vk::BufferUsageFlagBits;
+
+}  // namespace
 
 void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
-                         std::span<const std::uint32_t> numbers) {
+                         std::span<const std::uint32_t> numbers, const Occlusion& occlusion) {
   Work& work = workOf(eye);
   work.people.clear();
   work.own.clear();
@@ -23,8 +28,23 @@ void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& stat
     work.people.push_back({state.combinations()[number], key});
   }
   if (work.people.empty()) return;
+  drawn_hides_ = occlusion.drawn_hides;
+  if (occlusion.is_on) chooseRounds(work, rows, state, numbers);
   planWork(work, state);
   upload(work, rows, state, numbers);
+  uploadOccludees(work, rows, state, shown, numbers);
+}
+
+void ComputeRaster::chooseRounds(Work& work, const ScreenRows& rows, const CrowdState& state,
+                                 std::span<const std::uint32_t> numbers) {
+  distances_.clear();
+  for (const std::uint32_t number : numbers) {
+    const Vec3& center = state.bounds()[number].center;
+    distances_.push_back(static_cast<float>(glm::dot(rows.z, glm::dvec4(glm::dvec3(center), 1.0))));
+  }
+  sorted_distances_.assign(distances_.begin(), distances_.end());
+  const float from = secondRoundDistance(sorted_distances_);
+  for (std::size_t i = 0; i < numbers.size(); ++i) work.people[i].is_late = distances_[i] > from;
 }
 
 void ComputeRaster::planWork(Work& work, const CrowdState& state) {
@@ -38,36 +58,37 @@ void ComputeRaster::planWork(Work& work, const CrowdState& state) {
                    work.plan->faceBits(), pose_of);
 }
 
+bool ComputeRaster::grow(Work& work, gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {
+  if (buffer && bytes <= buffer.size()) return false;
+  const std::uint64_t most = device_.limits().maxStorageBufferRange;
+  if (bytes > most) {
+    throw SystemError({.file = {},
+                       .where = "Vulkan device " + device_.name(),
+                       .what = fmt::format("the work of the compute rasteriser needs {}, one buffer holds {}",
+                                           gpu::describeBytes(bytes), gpu::describeBytes(most)),
+                       .mend = "use fewer people, or set raster to pipeline"});
+  }
+  ++work.number;
+  buffer = gpu::Buffer(device_, std::min(bytes + bytes / 2, most), usage, gpu::Buffer::Kind::kUpload,
+                       "the work of the rasteriser");
+  return true;
+}
+
 void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState& state,
                            std::span<const std::uint32_t> numbers) {
-  using Usage = vk::BufferUsageFlagBits;
-  const auto grow = [&](gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {
-    if (buffer && bytes <= buffer.size()) return false;
-    const std::uint64_t most = device_.limits().maxStorageBufferRange;
-    if (bytes > most) {
-      throw SystemError(
-          {.file = {},
-           .where = "Vulkan device " + device_.name(),
-           .what = fmt::format("the work of the compute rasteriser needs {}, one buffer holds {}",
-                               gpu::describeBytes(bytes), gpu::describeBytes(most)),
-           .mend = "use fewer people, or set raster to pipeline"});
-    }
-    ++work.number;
-    buffer = gpu::Buffer(device_, std::min(bytes + bytes / 2, most), usage, gpu::Buffer::Kind::kUpload,
-                         "the work of the rasteriser");
-    return true;
-  };
-  const auto copy = [&](gpu::Buffer& buffer, const auto& values) {
+  const auto copy = [&](gpu::Buffer& buffer, const auto& values, std::size_t room) {
     using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
-    grow(buffer, values.size() * sizeof(Value), Usage::eStorageBuffer);
+    grow(work, buffer, room * sizeof(Value), Usage::eStorageBuffer | Usage::eTransferDst);
     std::copy(values.begin(), values.end(), buffer.mapped<Value>().begin());
   };
-  copy(work.entries, work.plan->entries());
-  copy(work.work, work.plan->work());
-  copy(work.groups, work.plan->groups());
-  if (grow(work.rows, numbers.size() * sizeof(GpuRasterPerson), Usage::eUniformTexelBuffer))
+  // With a second round the device writes behind these what it picks.
+  const RasterPlan& plan = *work.plan;
+  copy(work.entries, plan.entries(), plan.entries().size() + plan.pickedCount());
+  copy(work.work, plan.work(), plan.work().size());
+  copy(work.groups, plan.groups(), 2 * plan.groups().size() - plan.firstLateGroup());
+  if (grow(work, work.rows, numbers.size() * sizeof(GpuRasterPerson), Usage::eUniformTexelBuffer))
     work.rows_view = work.rows.makeTexelView(device_);
-  if (grow(work.who, numbers.size() * sizeof(GpuRasterWho), Usage::eUniformTexelBuffer))
+  if (grow(work, work.who, numbers.size() * sizeof(GpuRasterWho), Usage::eUniformTexelBuffer))
     work.who_view = work.who.makeTexelView(device_, vk::Format::eR32G32B32A32Uint);
   const std::span<GpuRasterPerson> all_rows = work.rows.mapped<GpuRasterPerson>();
   const std::span<GpuRasterWho> all_who = work.who.mapped<GpuRasterWho>();
@@ -85,6 +106,28 @@ void ComputeRaster::upload(Work& work, const ScreenRows& rows, const CrowdState&
       all_rows[i] = makeRasterPerson(rows, place.world_from_box, place.box);
     }
     all_who[i] = {character.combination, pose, character.tint_seed, character.number};
+  }
+}
+
+void ComputeRaster::uploadOccludees(Work& work, const ScreenRows& rows, const CrowdState& state,
+                                    const ViewPeople& shown, std::span<const std::uint32_t> numbers) {
+  const std::size_t people = work.plan->hasSecondRound() ? numbers.size() : 0;
+  if (grow(work, work.occludees, std::max<std::size_t>(people, 1) * sizeof(GpuOccludee),
+           Usage::eUniformTexelBuffer))
+    work.occludees_view = work.occludees.makeTexelView(device_);
+  grow(work, work.batches, work.plan->batches().size() * sizeof(GpuRasterBatch),
+       Usage::eStorageBuffer | Usage::eIndirectBuffer);
+  const std::span<GpuOccludee> all = work.occludees.mapped<GpuOccludee>();
+  const KeyFrames& frames = state.keyFrames();
+  for (std::size_t i = 0; i < people; ++i) {
+    const GpuCharacter& character = state.characters()[numbers[i]];
+    // Legs that are bent may leave the boxes.
+    const bool holds_feet = shown.key(numbers[i]) == ViewPeople::kExact &&
+                            (character.feet[0].w > 0.0f || character.feet[1].w > 0.0f);
+    const auto next =
+        std::upper_bound(frames.clip_of_wardrobe.begin(), frames.clip_of_wardrobe.end(), character.clip);
+    const ClipRange clips{*(next - 1), *next - *(next - 1)};
+    all[i] = makeOccludee(rows, character, clips, !holds_feet);
   }
 }
 

@@ -259,6 +259,7 @@ class CrowdAssets::Builder {
           .index_chunk = placed.index_chunk,
           .vertex_chunk = placed.vertex_chunk};
       item.first_index = placed.first_index;
+      item.list = sub_mesh.list.value;
       item.index_count = static_cast<std::uint32_t>(list.indices.size());
       item.vertex_offset = placed.vertex_offset;
       item.mesh = placed.mesh;

@@ -36,6 +36,7 @@ struct DrawItem {
   std::uint32_t first_index = 0, index_count = 0;
   std::int32_t vertex_offset = 0;
   std::uint32_t mesh = 0;  ///< index into CrowdAssets::meshes
+  std::uint32_t list = 0;  ///< index list, in the lists of its wardrobe
   GpuDraw gpu{};
 };
 

@@ -192,7 +192,7 @@ void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) {
     if (queued == 0) continue;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets_[i], nullptr);
     commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, queued);
-    gpu::recordDispatch(commands, queued, ENSEMBLE_POSE_GROUPS_X);
+    gpu::recordDispatch(commands, queued);
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,
                      Stage::eVertexShader | Stage::eComputeShader, vk::AccessFlagBits2::eShaderSampledRead);

@@ -66,7 +66,7 @@ void refuseBeyondViewport(const gpu::Device& device, const View& view) {
 }  // namespace
 
 FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-                     const EnvironmentAssets* environment, std::vector<float> longest_edges,
+                     const EnvironmentAssets* environment, std::optional<CrowdExtents> extents,
                      const FrameLimits& limits)
     : device_(device),
       assets_(assets),
@@ -81,15 +81,15 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
       shadow_queues_(device, layout_, assets, state),
       counter_(device, kPassCount),
       timer_(device),
-      shadow_sampler_(makeShadowSampler(device)),
-      longest_edges_(std::move(longest_edges)) {
-  if (!longest_edges_.empty()) {
+      shadow_sampler_(makeShadowSampler(device)) {
+  if (extents) {
+    extents_ = std::move(*extents);
     compute_ =
-        std::make_unique<ComputeRaster>(device, layout_, assets, state,
+        std::make_unique<ComputeRaster>(device, layout_, assets, state, extents_,
                                         ComputeRasterOptions{.pose_cache_bytes = limits.pose_cache_bytes,
                                                              .max_buffer_bytes = limits.max_buffer_bytes});
   }
-  longest_edges_.resize(state.characterCount(), 0.0f);
+  extents_.longest_edges.resize(state.characterCount(), 0.0f);
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
   for (std::vector<std::uint32_t>* list :
        {&visible_, &casters_, &near_, &computed_, &near_casters_, &computed_casters_, &skinned_})
@@ -209,7 +209,7 @@ void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const Targe
   const PeopleAtTime people{.characters = state_.characters(),
                             .bounds = state_.bounds(),
                             .heights = state_.heights(),
-                            .longest_edges = longest_edges_};
+                            .longest_edges = extents_.longest_edges};
   shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_,
                 mayCompute(size) ? compute_->mostPeople() : 0);
   const auto is_computed = [&](std::uint32_t person) { return shown_.isComputed(person); };
@@ -263,8 +263,10 @@ void FrameLoop::buildQueues(const View& view, const Tile& tile) {
   divide(
       visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
   main_queues_.build(assets_, state_, near_);
-  if (compute_)
-    compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_);
+  if (compute_) {
+    compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_,
+                   {.is_on = view.occlusion, .drawn_hides = environment_pass_ || !near_.empty()});
+  }
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return frustum.touches(box); }, main_environment_);
 }
@@ -274,7 +276,7 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
       casters_, [&](std::uint32_t person) { return shown_.castsComputed(person); }, computed_casters_,
       near_casters_);
   shadow_queues_.build(assets_, state_, near_casters_);
-  if (compute_) compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_);
+  if (compute_) compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_, {});
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },
                           shadow_environment_);
@@ -431,6 +433,7 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
     addComputed(*compute_, ComputeRaster::Eye::kCamera, stats.main);
     stats.people_triangles += computed;
     stats.triangles_computed += computed;
+    stats.triangles_hidden += compute_->hiddenTriangleCount(ComputeRaster::Eye::kCamera);
     const PoseCacheStats& poses = compute_->poses().stats();
     stats.poses = {.kept = poses.hits,
                    .skinned = poses.misses,

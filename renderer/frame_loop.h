@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "renderer/compute_raster.h"
 #include "renderer/coverage_pass.h"
 #include "renderer/crowd_assets.h"
+#include "renderer/crowd_extents.h"
 #include "renderer/crowd_state.h"
 #include "renderer/environment_pass.h"
 #include "renderer/overdraw_pass.h"
@@ -32,9 +34,9 @@ struct FrameLimits {
 class FrameLoop {
  public:
   /// @param environment null where there is none
-  /// @param longest_edges per person, metres; empty: everybody is drawn by the graphics pipeline
+  /// @param extents none: everybody is drawn by the graphics pipeline
   FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState& state,
-            const EnvironmentAssets* environment, std::vector<float> longest_edges,
+            const EnvironmentAssets* environment, std::optional<CrowdExtents> extents,
             const FrameLimits& limits);
 
   /// Draws views at a time, one after the other. @throws SystemError if targets don't fit
@@ -104,7 +106,7 @@ class FrameLoop {
   std::vector<std::unique_ptr<Slot>> slots_;  // oldest first
   std::vector<std::uint32_t> overdraw_;       // of the view at hand, per pixel
   ViewPeople shown_;
-  std::vector<float> longest_edges_;              // per person
+  CrowdExtents extents_;                          // of nothing where everybody is the pipeline's
   std::vector<std::uint32_t> visible_, casters_;  // all of them; the rest are parts of these
   std::vector<std::uint32_t> near_, computed_, near_casters_, computed_casters_, skinned_;
   std::vector<std::uint32_t> first_of_chunk_;  // per chunk of people: the number of its first

@@ -47,8 +47,10 @@ struct FrameStats {
   std::uint32_t characters_posed = 0;  ///< whose palettes this view needed first: not of those whom compute
                                        ///< draws from kept poses
   std::uint32_t characters_computed = 0;  ///< of those drawn: by the compute rasteriser
-  std::uint64_t people_triangles = 0;     ///< of the picture's triangles: those of people
-  std::uint64_t triangles_computed = 0;   ///< of these: by the compute rasteriser
+
+  std::uint64_t people_triangles = 0;    ///< of the picture's triangles: those of people
+  std::uint64_t triangles_computed = 0;  ///< of these: by the compute rasteriser
+  std::uint64_t triangles_hidden = 0;    ///< left out of the picture: nearer people hide them
   PoseStats poses;
   PassStats shadow;                     ///< the shadow map
   PassStats main;                       ///< the picture

@@ -335,7 +335,7 @@ void PosePool::recordJobs(const vk::raii::CommandBuffer& commands, std::size_t f
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0,
                               vk::ArrayProxy<const vk::DescriptorSet>(mixes ? 3 : 2, sets.data()), nullptr);
   commands.pushConstants<Push>(layout, vk::ShaderStageFlagBits::eCompute, 0, push);
-  gpu::recordDispatch(commands, push.group_count, ENSEMBLE_RASTER_GROUPS_X);
+  gpu::recordDispatch(commands, push.group_count);
 }
 
 }  // namespace ensemble

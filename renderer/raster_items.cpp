@@ -49,7 +49,7 @@ void RasterItems::makeItems(gpu::Device& device, const PosePool& poses) {
   items_view_ = items_.makeTexelView(device, vk::Format::eR32G32B32A32Uint);
 }
 
-std::vector<PlanItem> RasterItems::planItems(bool to_sun) {
+std::vector<PlanItem> RasterItems::planItems(const CrowdExtents& extents, bool to_sun) {
   std::vector<PlanItem> items;
   for (const DrawItem& item : assets_.items()) {
     const std::uint32_t pair = pairOf(item);
@@ -67,7 +67,10 @@ std::vector<PlanItem> RasterItems::planItems(bool to_sun) {
                               .is_double_sided = item.state.double_sided ? 1u : 0u,
                               .first_face = item.gpu.first_face,
                               .first_vertex = static_cast<std::uint32_t>(item.vertex_offset),
-                              .material = item.gpu.material}});
+                              .material = item.gpu.material,
+                              .batch = 0,
+                              .first_box = extents.first_box[assets_.meshes()[item.mesh].wardrobe][item.list],
+                              .first_picked = 0}});
   }
   return items;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/crowd_assets.h"
+#include "renderer/crowd_extents.h"
 #include "renderer/pose_pool.h"
 #include "renderer/raster_plan.h"
 
@@ -38,7 +39,7 @@ class RasterItems {
   const std::vector<Bin>& bins() const { return bins_; }
   const std::vector<State>& states() const { return states_; }
   /// Items as the camera sees them, or the sun. Their states become known.
-  std::vector<PlanItem> planItems(bool to_sun);
+  std::vector<PlanItem> planItems(const CrowdExtents& extents, bool to_sun);
   /// Per combination.
   const std::vector<std::vector<ShownItem>>& shown(bool to_sun) const { return to_sun ? casting_ : shown_; }
   const vk::raii::BufferView& view() const { return items_view_; }       ///< GpuRasterItem

@@ -13,12 +13,11 @@ constexpr float kMostCoordinate = 4.0e6f;  ///< pixels from the picture's middle
 
 glm::dvec4 rowOf(const Mat4& m, int row) { return {m[0][row], m[1][row], m[2][row], m[3][row]}; }
 
-/// Row of a product with a matrix given by its rows, the last of which is 0 0 0 1.
+}  // namespace
+
 glm::dvec4 times(const glm::dvec4& row, const glm::dvec4 (&rows)[3]) {
   return row.x * rows[0] + row.y * rows[1] + row.z * rows[2] + glm::dvec4(0.0, 0.0, 0.0, row.w);
 }
-
-}  // namespace
 
 ScreenRows cameraRows(const View& view, const Tile& tile) {
   const Mat4 clip = clipFromWorld(view);

@@ -18,6 +18,9 @@ struct ScreenRows {
 ScreenRows cameraRows(const View& view, const Tile& tile);
 ScreenRows sunRows(const ShadowFit& fit);
 
+/// Row of a product with a matrix given by its rows, the last of which is 0 0 0 1.
+glm::dvec4 times(const glm::dvec4& row, const glm::dvec4 (&rows)[3]);
+
 /// @param world_from_box rows: from what the box is in, a person's model space or the world, to the world
 GpuRasterPerson makeRasterPerson(const ScreenRows& rows, const vec4 (&world_from_box)[3], const KeptBox& box);
 

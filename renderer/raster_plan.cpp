@@ -25,8 +25,13 @@ RasterPlan::RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<Show
 }
 
 void RasterPlan::sortByKey(std::span<const PlanPerson> people, std::uint32_t key_count) {
-  key_cursors_.assign(key_count, 0u);
-  for (const PlanPerson& person : people) ++key_cursors_[person.key];
+  // The second round's keys follow the first one's.
+  const auto block_of = [&](const PlanPerson& person) {
+    return person.is_late ? key_count + person.key : person.key;
+  };
+  const bool has_late = std::any_of(people.begin(), people.end(), [](const auto& p) { return p.is_late; });
+  key_cursors_.assign(has_late ? 2 * std::size_t{key_count} : key_count, 0u);
+  for (const PlanPerson& person : people) ++key_cursors_[block_of(person)];
   blocks_.clear();
   std::uint32_t first = 0;
   for (std::uint32_t key = 0; key < key_cursors_.size(); ++key) {
@@ -36,14 +41,16 @@ void RasterPlan::sortByKey(std::span<const PlanPerson> people, std::uint32_t key
     first += count;
   }
   by_key_.resize(people.size());
-  for (std::uint32_t i = 0; i < people.size(); ++i) by_key_[key_cursors_[people[i].key]++] = i;
+  for (std::uint32_t i = 0; i < people.size(); ++i) by_key_[key_cursors_[block_of(people[i])]++] = i;
 }
 
 void RasterPlan::beginWork() {
   entries_.clear();
   work_.clear();
   work_batch_.clear();
+  picked_count_ = 0;
   triangle_count_ = 0;
+  late_triangle_count_ = 0;
 }
 
 void RasterPlan::gather(const Block& block, std::span<const PlanPerson> people, std::uint32_t face_bits) {
@@ -69,7 +76,7 @@ void RasterPlan::gather(const Block& block, std::span<const PlanPerson> people, 
   });
 }
 
-void RasterPlan::addWork(std::uint32_t item, const PlanPose& pose) {
+void RasterPlan::addWork(std::uint32_t item, const PlanPose& pose, bool is_late) {
   const PlanItem& from = items_[item];
   const std::uint32_t people = std::exchange(item_count_[item], 0u);
   GpuRasterWork& work = work_.emplace_back(from.work);
@@ -77,18 +84,25 @@ void RasterPlan::addWork(std::uint32_t item, const PlanPose& pose) {
   work.first_entry = item_first_[item];
   work.entry_count = people;
   const std::uint32_t group_count = (work.triangle_count + triangles_per_group_ - 1) / triangles_per_group_;
-  work_batch_.push_back({from.state, pose.buffer, 0, group_count});
+  work_batch_.push_back({from.state, pose.buffer, is_late, 0, group_count});
+  if (is_late) {
+    work.first_picked = picked_count_;  // counted from behind the entries: see finishWork()
+    picked_count_ += people * group_count;
+  }
   triangle_count_ += std::uint64_t{people} * work.triangle_count;
+  if (is_late) late_triangle_count_ += std::uint64_t{people} * work.triangle_count;
 }
 
 void RasterPlan::finishWork() {
   batches_.clear();
   const auto batch_of = [&](const PlanBatch& own) -> PlanBatch& {
     for (PlanBatch& batch : batches_) {
-      if (batch.state == own.state && batch.pose_buffer == own.pose_buffer) return batch;
+      if (batch.state == own.state && batch.pose_buffer == own.pose_buffer && batch.is_late == own.is_late)
+        return batch;
     }
-    return batches_.emplace_back(PlanBatch{own.state, own.pose_buffer, 0, 0});
+    return batches_.emplace_back(PlanBatch{own.state, own.pose_buffer, own.is_late, 0, 0});
   };
+  // Work of the second round comes last, and so do its batches.
   for (const PlanBatch& own : work_batch_) batch_of(own).group_count += own.group_count;
   std::uint32_t first = 0;
   for (PlanBatch& batch : batches_) {
@@ -96,11 +110,18 @@ void RasterPlan::finishWork() {
     first += std::exchange(batch.group_count, 0u);
   }
   groups_.resize(first);
+  const auto late = std::find_if(batches_.begin(), batches_.end(), [](const auto& b) { return b.is_late; });
+  first_late_group_ = late == batches_.end() ? first : late->first_group;
   for (std::uint32_t w = 0; w < work_.size(); ++w) {
     PlanBatch& batch = batch_of(work_batch_[w]);
+    GpuRasterWork& work = work_[w];
+    work.batch = static_cast<std::uint32_t>(&batch - batches_.data());
+    work.first_picked += static_cast<std::uint32_t>(entries_.size());
     for (std::uint32_t g = 0; g < work_batch_[w].group_count; ++g) {
       groups_[batch.first_group + batch.group_count++] = {.work = w,
-                                                          .first_triangle = g * triangles_per_group_};
+                                                          .first_triangle = g * triangles_per_group_,
+                                                          .first_entry = work.first_entry,
+                                                          .entry_count = work.entry_count};
     }
   }
 }

@@ -1,5 +1,6 @@
 // The work of the compute rasteriser: people who show one index list in one pose are drawn together, run of
-// triangles by run of triangles. No Vulkan.
+// triangles by run of triangles. Some may be drawn in a second round, for which the device picks those that
+// are not hidden (occlusion_pass.h). No Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +28,13 @@ struct ShownItem {
 struct PlanPerson {
   std::uint32_t combination = 0;
   std::uint32_t key = 0;  ///< who have the same are in the same pose
+  bool is_late = false;   ///< of the second round
 };
 
 /// Groups that are drawn with the same things bound.
 struct PlanBatch {
   std::uint32_t state = 0, pose_buffer = 0;
+  bool is_late = false;
   std::uint32_t first_group = 0, group_count = 0;
 };
 
@@ -54,22 +57,31 @@ class RasterPlan {
     sortByKey(people, key_count);
     beginWork();
     for (const Block& block : blocks_) {
+      const bool is_late = block.key >= key_count;
       gather(block, people, face_bits);
-      for (const std::uint32_t item : touched_) addWork(item, pose_of(items_[item].mesh, block.key));
+      for (const std::uint32_t item : touched_)
+        addWork(item, pose_of(items_[item].mesh, is_late ? block.key - key_count : block.key), is_late);
     }
     finishWork();
   }
 
   const std::vector<std::uint32_t>& entries() const { return entries_; }
   const std::vector<GpuRasterWork>& work() const { return work_; }
+  /// Those of the second round behind the others.
   const std::vector<GpuRasterGroup>& groups() const { return groups_; }
+  std::uint32_t firstLateGroup() const { return first_late_group_; }
+  bool hasSecondRound() const { return first_late_group_ < groups_.size(); }
+  /// Room behind the entries for those that the device picks.
+  std::uint32_t pickedCount() const { return picked_count_; }
+  /// Those of the second round behind the others.
   const std::vector<PlanBatch>& batches() const { return batches_; }
-  std::uint64_t triangleCount() const { return triangle_count_; }  ///< of all people
+  std::uint64_t triangleCount() const { return triangle_count_; }           ///< of all people
+  std::uint64_t lateTriangleCount() const { return late_triangle_count_; }  ///< of these: the second round's
   /// Bits that number the faces of any one person.
   std::uint32_t faceBits() const { return face_bits_; }
 
  private:
-  /// People of one key, in by_key_.
+  /// People of one key and round, in by_key_.
   struct Block {
     std::uint32_t key = 0, first = 0, count = 0;
   };
@@ -77,7 +89,7 @@ class RasterPlan {
   void beginWork();
   /// Entries of all people of a block, item by item; touched_ are its items, with ranges in entry_first_ ...
   void gather(const Block& block, std::span<const PlanPerson> people, std::uint32_t face_bits);
-  void addWork(std::uint32_t item, const PlanPose& pose);
+  void addWork(std::uint32_t item, const PlanPose& pose, bool is_late);
   void finishWork();
 
   std::vector<PlanItem> items_;
@@ -92,7 +104,8 @@ class RasterPlan {
   std::vector<PlanBatch> work_batch_;  // per work item: its buffers
   std::vector<GpuRasterGroup> groups_;
   std::vector<PlanBatch> batches_;
-  std::uint64_t triangle_count_ = 0;
+  std::uint32_t first_late_group_ = 0, picked_count_ = 0;
+  std::uint64_t triangle_count_ = 0, late_triangle_count_ = 0;
 };
 
 }  // namespace ensemble

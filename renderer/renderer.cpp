@@ -8,8 +8,8 @@
 #include "core/check.h"
 #include "core/image_file.h"
 #include "core/input_error.h"
+#include "renderer/crowd_extents.h"
 #include "renderer/frame_loop.h"
-#include "renderer/longest_edges.h"
 #include "renderer/mip_chain.h"
 #include "renderer/tints.h"
 
@@ -87,31 +87,6 @@ WornLists buildLists(const Crowd& crowd, std::span<const Wardrobe> wardrobes, Te
   return worn;
 }
 
-/// Per person: the longest edge of any triangle of body and clothes, at any key of any clip, metres.
-std::vector<float> longestEdgesOfPeople(const Crowd& crowd, const WornLists& worn,
-                                        const Animation& animation) {
-  std::vector<std::vector<float>> of_meshes;  // per wardrobe and mesh: over all clips
-  for (std::uint32_t w = 0; w < worn.lists.size(); ++w) {
-    const std::vector<float> by_clip = longestEdges(worn.lists[w], animation, w);
-    const std::size_t meshes = worn.lists[w].meshes.size();
-    std::vector<float>& own = of_meshes.emplace_back(meshes, 0.0f);
-    const std::size_t clips = meshes > 0 ? by_clip.size() / meshes : 0;
-    for (std::size_t i = 0; i < by_clip.size(); ++i) own[i / clips] = std::max(own[i / clips], by_clip[i]);
-  }
-  std::vector<float> of_combinations;
-  for (const auto& [w, combination] : worn.combinations) {
-    const SubMeshLists& lists = worn.lists[w];
-    float longest = 0.0f;
-    for (const SubMeshId id : lists.shown[combination])
-      longest = std::max(longest, of_meshes[w][lists.index_lists[lists.sub_meshes[id].list].mesh.value]);
-    of_combinations.push_back(longest);
-  }
-  std::vector<float> of_people;
-  for (const Character& person : crowd.characters)
-    of_people.push_back(of_combinations[person.combination] * person.scale);
-  return of_people;
-}
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -157,11 +132,12 @@ struct Renderer::Impl {
       next.environment = std::make_unique<EnvironmentAssets>(
           device, *environment, AssetLimits{.max_buffer_bytes = options.max_buffer_bytes});
     }
-    std::vector<float> edges;
+    std::optional<CrowdExtents> extents;
     if (device.canRasterise() && scene.raster != RasterKind::kPipeline)
-      edges = longestEdgesOfPeople(*next.crowd, worn, animation);
+      extents = extentsOfCrowd(*next.crowd, worn.lists, worn.combinations, animation,
+                               device.subgroupSize() * ENSEMBLE_RASTER_RUN);
     next.frames = std::make_unique<FrameLoop>(
-        device, *next.assets, *next.state, next.environment.get(), std::move(edges),
+        device, *next.assets, *next.state, next.environment.get(), std::move(extents),
         FrameLimits{.max_buffer_bytes = options.max_buffer_bytes,
                     .pose_cache_bytes = std::uint64_t{scene.poses.cache_mib} << 20,
                     .tiles = options.tiles});

@@ -102,6 +102,7 @@ View viewOf(const Scene& scene, double seconds) {
   view.samples = scene.output.samples;
   view.raster = scene.raster;
   view.debug = scene.debug;
+  view.occlusion = scene.occlusion;
   view.snap_below = scene.poses.snap_below;
   view.background = scene.output.background;
   view.background_color = scene.output.background_color;

@@ -5,6 +5,7 @@
 #include "shaders/shared/raster_types.h"
 #include "shaders/shared/vertex.h"
 #include "shaders/kept_vertex.glsl"
+#include "shaders/group_number.glsl"
 
 layout(local_size_x = ENSEMBLE_SKIN_GROUP) in;
 
@@ -17,7 +18,7 @@ layout(set = 2, binding = ENSEMBLE_BINDING_MIX_POSES) uniform usamplerBuffer pos
 layout(push_constant) uniform Push { uint first_group, group_count; };
 
 void main() {
-  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
+  uint number = groupNumber();
   if (number >= group_count) return;
   GpuSkinGroup group = groups[first_group + number];
   GpuSkinJob job = jobs[group.job];

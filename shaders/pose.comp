@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/crowd_types.h"
 #include "shaders/shared/leg_ik.h"
+#include "shaders/group_number.glsl"
 
 layout(local_size_x = ENSEMBLE_POSE_GROUP) in;
 
@@ -82,7 +83,7 @@ Rows holdFoot(GpuCharacter character, GpuLegs legs, uint group, Rows rows) {
 }
 
 void main() {
-  uint index = gl_WorkGroupID.y * ENSEMBLE_POSE_GROUPS_X + gl_WorkGroupID.x;
+  uint index = groupNumber();
   if (index >= queue_length) return;
   GpuPoseJob job = queue[index];
   GpuCharacter character = characters[job.character];

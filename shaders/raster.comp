@@ -182,9 +182,10 @@ bool isHidden(uint first_word, uint face) {
 }
 
 void main() {
-  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
+  uint number = groupNumber();
   if (number >= group_count) return;
   GpuRasterGroup group = groups[first_group + number];
+  if (group.work == ENSEMBLE_NO_WORK) return;
   GpuRasterWork work = all_work[group.work];
   const uint lanes = gl_WorkGroupSize.x, lane = gl_LocalInvocationID.x;
   uint triangle_end = min(group.first_triangle + lanes * ENSEMBLE_RASTER_RUN, work.triangle_count);
@@ -193,11 +194,11 @@ void main() {
 
   uint first_entry = 0u;
   [[dont_unroll]] for (;;) {
-    uint entry = entries[work.first_entry + min(first_entry + lane, work.entry_count - 1u)];
+    uint entry = entries[group.first_entry + min(first_entry + lane, group.entry_count - 1u)];
     int rank = int(entry >> face_bits), person = rank * ENSEMBLE_PERSON_TEXELS;
     vec4 rows[3] = vec4[3](texelFetch(people, person), texelFetch(people, person + 1), texelFetch(people, person + 2));
     uint first_word = kHideFaces ? hidden_first[texelFetch(who, rank).x] : 0u;
-    uint people_count = min(work.entry_count - first_entry, lanes);
+    uint people_count = min(group.entry_count - first_entry, lanes);
     uint triangle = group.first_triangle;
     [[dont_unroll]] for (;;) {
       uint mine = min(triangle + lane, triangle_end - 1u);
@@ -220,6 +221,6 @@ void main() {
       if (triangle >= triangle_end) break;
     }
     first_entry += lanes;
-    if (first_entry >= work.entry_count) break;
+    if (first_entry >= group.entry_count) break;
   }
 }

@@ -14,8 +14,9 @@ void main() {
     uint groups = (count + ENSEMBLE_GROUP_PIXELS - 1u) / ENSEMBLE_GROUP_PIXELS;
     bins[i].first = i < bin_count ? first : 0u;
     bins[i].cursor = first;
-    bins[i].groups_x = min(groups, ENSEMBLE_RASTER_GROUPS_X);
-    bins[i].groups_y = (groups + ENSEMBLE_RASTER_GROUPS_X - 1u) / ENSEMBLE_RASTER_GROUPS_X;
+    uvec2 rows = groupRows(groups);
+    bins[i].groups_x = rows.x;
+    bins[i].groups_y = rows.y;
     bins[i].groups_z = 1u;
     first += count;
   }

@@ -2,6 +2,7 @@
 // and there: where shaders run on the CPU they are read faster than storage buffers.
 #include "shaders/shared/vertex.h"
 #include "shaders/kept_vertex.glsl"
+#include "shaders/group_number.glsl"
 
 layout(set = ENSEMBLE_SET_VIEW, binding = ENSEMBLE_BINDING_VIEW, std140) uniform ViewBlock { GpuView view; };
 
@@ -28,7 +29,7 @@ layout(constant_id = ENSEMBLE_CONSTANT_SAMPLES) const int kSamples = 1;  // 1 or
 
 // The first of the pixels that this invocation is for, counted from the band's or the list's beginning.
 uint firstPixelOfInvocation() {
-  return (gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x) * ENSEMBLE_GROUP_PIXELS + gl_LocalInvocationID.x;
+  return groupNumber() * ENSEMBLE_GROUP_PIXELS + gl_LocalInvocationID.x;
 }
 
 // The corners of a triangle. @param index the number of its first one in the buffer of indices

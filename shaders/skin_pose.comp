@@ -6,6 +6,7 @@
 #include "shaders/shared/raster_types.h"
 #include "shaders/shared/vertex.h"
 #include "shaders/kept_vertex.glsl"
+#include "shaders/group_number.glsl"
 
 layout(local_size_x = ENSEMBLE_SKIN_GROUP) in;
 
@@ -45,7 +46,7 @@ void skin(GpuSkinJob job, uint vertex) {
 }
 
 void main() {
-  uint number = gl_WorkGroupID.y * ENSEMBLE_RASTER_GROUPS_X + gl_WorkGroupID.x;
+  uint number = groupNumber();
   if (number >= group_count) return;
   GpuSkinGroup group = groups[first_group + number];
   GpuSkinJob job = jobs[group.job];

@@ -1,6 +1,6 @@
 #include "renderer/vk/descriptors.h"
 
-#include <algorithm>
+#include "shaders/shared/crowd_types.h"
 
 namespace ensemble::gpu {
 
@@ -93,10 +93,10 @@ vk::raii::Pipeline makeComputePipeline(const Device& device, const vk::raii::Pip
                                                        .layout = *layout}));
 }
 
-void recordDispatch(const vk::raii::CommandBuffer& commands, std::uint32_t group_count,
-                    std::uint32_t groups_x) {
+void recordDispatch(const vk::raii::CommandBuffer& commands, std::uint32_t group_count) {
   if (group_count == 0) return;
-  commands.dispatch(std::min(group_count, groups_x), (group_count + groups_x - 1) / groups_x, 1);
+  const std::uint32_t rows = (group_count + ENSEMBLE_MOST_GROUPS_X - 1) / ENSEMBLE_MOST_GROUPS_X;
+  commands.dispatch((group_count + rows - 1) / rows, rows, 1);
 }
 
 }  // namespace ensemble::gpu

@@ -54,9 +54,8 @@ vk::raii::Pipeline makeComputePipeline(const Device& device, const vk::raii::Pip
                                        std::span<const std::uint32_t> spirv,
                                        const vk::SpecializationInfo* constants = nullptr);
 
-/// Dispatches groups along x, and from `groups_x` on in further rows of y; the shader counts y * groups_x + x
-/// and leaves what is beyond the count.
-void recordDispatch(const vk::raii::CommandBuffer& commands, std::uint32_t group_count,
-                    std::uint32_t groups_x);
+/// Dispatches groups in as few rows along y as a device can have; shaders/group_number.glsl counts them, and
+/// the shader leaves what is beyond the count.
+void recordDispatch(const vk::raii::CommandBuffer& commands, std::uint32_t group_count);
 
 }  // namespace ensemble::gpu

@@ -56,8 +56,8 @@
 
 // Invocations that share a character in the pose pass.
 #define ENSEMBLE_POSE_GROUP 64
-// Groups along x of the pose pass's dispatch.
-#define ENSEMBLE_POSE_GROUPS_X 1024
+// Groups along x of any dispatch: every Vulkan device has as many.
+#define ENSEMBLE_MOST_GROUPS_X 65535u
 
 // Pixels side by side, and rows, of a group of the post pass.
 #define ENSEMBLE_POST_GROUP 64

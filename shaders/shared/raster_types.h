@@ -46,12 +46,25 @@
 // The pass that mixes kept poses has, beside the first of these, a set for each of the two buffers it reads.
 #define ENSEMBLE_BINDING_MIX_POSES 0
 
+// The passes that find out whom the first round hides have one, too.
+#define ENSEMBLE_BINDING_OCCLUSION_SEEN 0
+#define ENSEMBLE_BINDING_OCCLUSION_DEPTH 1
+#define ENSEMBLE_BINDING_OCCLUSION_PYRAMID 2
+#define ENSEMBLE_BINDING_OCCLUSION_OCCLUDEES 3
+#define ENSEMBLE_BINDING_OCCLUSION_BOXES 4
+#define ENSEMBLE_BINDING_OCCLUSION_ENTRIES 5
+#define ENSEMBLE_BINDING_OCCLUSION_WORK 6
+#define ENSEMBLE_BINDING_OCCLUSION_GROUPS 7
+#define ENSEMBLE_BINDING_OCCLUSION_BATCHES 8
+
 // Specialisation constants of the rasteriser.
 #define ENSEMBLE_CONSTANT_LANES 3
 #define ENSEMBLE_CONSTANT_TO_SUN 4
 #define ENSEMBLE_CONSTANT_SAMPLES 5
 #define ENSEMBLE_CONSTANT_SHADOWS 6
 #define ENSEMBLE_CONSTANT_COUNTS 7
+// Of the pyramid's first level: what the graphics pipeline drew hides people, too.
+#define ENSEMBLE_CONSTANT_DRAWN 3
 // Of the pass that skins poses: people's own, from the palette, instead of those at key frames.
 #define ENSEMBLE_CONSTANT_OWN_POSES 0
 
@@ -67,14 +80,22 @@
 #define ENSEMBLE_LIST_GROUP 64
 #define ENSEMBLE_LIST_RUN 16
 #define ENSEMBLE_GROUP_PIXELS (ENSEMBLE_LIST_GROUP * ENSEMBLE_LIST_RUN)
+// In place of a group's work: there is none.
+#define ENSEMBLE_NO_WORK 0xffffffffu
 // Samples that are listed and shaded at a time.
 #define ENSEMBLE_RASTER_BAND (1u << 20)
 // In a listed pixel: its number in the target, and which of its samples it is for.
 #define ENSEMBLE_LISTED_PIXEL_BITS 28
 // In a listed pixel: the item's number; above it the bin's.
 #define ENSEMBLE_LISTED_ITEM_BITS 20
-// Groups along x of dispatches that may be larger than a device's limit along one axis.
-#define ENSEMBLE_RASTER_GROUPS_X 32768
+
+// The depth pyramid: pixels along a side of a texel of its first level, and how many levels there are.
+#define ENSEMBLE_PYRAMID_TILE 8u
+#define ENSEMBLE_PYRAMID_LEVELS 5u
+// Texels of a GpuOccludee.
+#define ENSEMBLE_OCCLUDEE_TEXELS 4
+// Invocations of a group of the passes around it.
+#define ENSEMBLE_OCCLUSION_GROUP 64
 
 // A kept vertex: 15 bits each for x, y, z in the box of its clip, 10 and 9 for the octahedral normal.
 #define ENSEMBLE_POSE_POSITION_BITS 15
@@ -133,12 +154,45 @@ struct GpuRasterWork {
   uint first_face;    ///< into the source faces
   uint first_vertex;  ///< of the mesh, in its buffer
   uint material;
+  uint batch;         ///< that its groups belong to
+  uint first_box;     ///< GpuRunBox of its first run in the first clip; then by clip, then by run
+  uint first_picked;  ///< of the second round: where entries are written that are left, group by group
 };
 
-/// A run of triangles of a work item: what one group draws.
+/// A run of triangles of a work item, and people who show it: what one group draws.
 struct GpuRasterGroup {
-  uint work;
+  uint work;  ///< or ENSEMBLE_NO_WORK
   uint first_triangle;
+  uint first_entry;
+  uint entry_count;
+};
+
+/// Somebody of the second round: where its boxes come to lie.
+struct GpuOccludee {
+  vec4 screen_from_model[3];  ///< rows: x and y in pixels, times w; w
+  uint clip;                  ///< of its wardrobe
+  uint idle_clip;             ///< likewise; its boxes are those of both
+  uint clip_count;            ///< of its wardrobe
+  uint is_tested;             ///< 0: no box holds it, and it is always drawn
+};
+
+/// What holds a run of triangles in a clip, model space.
+struct GpuRunBox {
+  vec4 low;
+  vec4 high;
+};
+
+/// A batch of the second round: how many groups and triangles there are left. Behind the last batch one more,
+/// whose group_count is the number of people hidden.
+struct GpuRasterBatch {
+  uint first_group;
+  uint group_count;
+  uint triangle_count;
+  uint unused;
+  uint groups_x;  ///< VkDispatchIndirectCommand
+  uint groups_y;
+  uint groups_z;
+  uint unused_1;
 };
 
 /// A mesh to be skinned, at a key or as somebody's own; or to be mixed from two that are kept.
@@ -174,7 +228,9 @@ struct GpuRasterBin {
 static_assert(sizeof(GpuRasterPerson) == 96 && sizeof(GpuRasterWho) == 16 && sizeof(GpuRasterItem) == 32);
 static_assert(sizeof(GpuRasterPerson) == 16 * ENSEMBLE_PERSON_TEXELS);
 static_assert(sizeof(GpuRasterItem) == 16 * ENSEMBLE_RASTER_ITEM_TEXELS);
-static_assert(sizeof(GpuRasterWork) == 36 && sizeof(GpuRasterGroup) == 8);
+static_assert(sizeof(GpuRasterWork) == 48 && sizeof(GpuRasterGroup) == 16);
+static_assert(sizeof(GpuOccludee) == 16 * ENSEMBLE_OCCLUDEE_TEXELS && sizeof(GpuRunBox) == 32 &&
+              sizeof(GpuRasterBatch) == 32);
 static_assert(sizeof(GpuSkinJob) == 32 && offsetof(GpuSkinJob, first_vertex) == 16);
 static_assert(sizeof(GpuRasterBin) == 32 && offsetof(GpuRasterBin, groups_x) == 16);
 }  // namespace ensemble

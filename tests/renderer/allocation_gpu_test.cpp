@@ -53,7 +53,8 @@ TEST(Allocation, TheCounterCounts) {
 // Without the validation layer, which runs on this thread too and allocates as it likes.
 TEST(Allocation, AFrameAllocatesNothing) {
   if (deviceName() == "none") GTEST_SKIP() << "there is no Vulkan device";
-  Scene scene = testing::tubeScene(20);
+  Scene scene = testing::tubeScene(100);  // enough for two rounds of occlusion culling
+  scene.occlusion = true;
   const std::vector<Wardrobe> wardrobes = {testing::tubeWardrobe()};
   const EnvironmentMesh set = buildEnvironmentMesh(
       testing::setOf({testing::floorAt(0.0f, 10.0f), testing::wallAt(-2.0f, -3.0f, 3.0f, 3.0f)}), "set.glb");

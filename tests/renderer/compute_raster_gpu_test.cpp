@@ -96,6 +96,45 @@ TEST_F(ComputeRasterTest, CachesAndOrderChangeNoPixel) {
   }
 }
 
+// From eye level nearer people hide most of the others; from above hardly anybody, and the ground shows
+// everywhere.
+TEST_P(BothRasterisers, LeaveOutWhatIsHiddenAndNothingElse) {
+  const std::vector<SceneCamera> cameras = {
+      {.position = Vec3(0.4f, 1.2f, 14.0f), .target = Vec3(0.0f, 0.9f, 0.0f), .fov_y = radians(30.0f)},
+      {.position = Vec3(0.5f, 1.2f, 0.3f), .target = Vec3(3.0f, 1.0f, 2.0f)},  // among them
+      {.position = Vec3(0.0f, 20.0f, 0.1f), .target = Vec3(0.0f, 0.0f, 0.0f)},
+  };
+  std::uint64_t hidden = 0;
+  for (std::size_t c = 0; c < 2 * cameras.size(); ++c) {
+    Scene scene = crowdScene(c % 2 == 0 ? RasterKind::kCompute : RasterKind::kAuto, 400);
+    scene.camera = cameras[c / 2];
+    scene.poses.snap_below = c % 2 == 0 ? 1e5f : 0.0f;
+    scene.output.samples = GetParam();
+    const auto renderer = makeRenderer(scene);
+    View view = viewWithAovs(scene);
+    for (const double seconds : {0.0, 0.37}) {
+      view.occlusion = false;
+      const Picture all = draw(*renderer, view, seconds);
+      view.occlusion = true;
+      const Picture left = draw(*renderer, view, seconds), again = draw(*renderer, view, seconds);
+      EXPECT_EQ(all.stats.triangles_hidden, 0u);
+      EXPECT_EQ(left.stats.triangles_computed + left.stats.triangles_hidden, all.stats.triangles_computed);
+      EXPECT_EQ(left.stats.triangles_hidden, again.stats.triangles_hidden);
+      View counted = view;
+      counted.debug = DebugKind::kOverdraw;
+      const Picture overdraw = draw(*renderer, counted, seconds);
+      counted.occlusion = false;
+      EXPECT_EQ(overdraw.color.rgba, draw(*renderer, counted, seconds).color.rgba) << "those behind as well";
+      if (c / 2 == 0) hidden += left.stats.triangles_hidden;
+      EXPECT_EQ(left.color.rgba, all.color.rgba) << c;
+      EXPECT_EQ(left.face, all.face) << c;
+      EXPECT_EQ(left.character, all.character) << c;
+      EXPECT_EQ(left.depth, all.depth) << c;
+    }
+  }
+  EXPECT_GT(hidden, 10000u);
+}
+
 // Each mesh in a buffer of its own, so that all that is sorted by buffers is.
 TEST_F(ComputeRasterTest, ChunksOfBuffersGiveTheSamePicture) {
   const Scene scene = crowdScene(RasterKind::kCompute);

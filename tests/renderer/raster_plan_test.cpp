@@ -77,6 +77,43 @@ TEST(RasterPlan, PeopleOfOnePoseAreDrawnTogether) {
   EXPECT_EQ(asked.size(), 4u);
 }
 
+// Whoever is of the second round has groups of its own, behind the others, and room for each that may be
+// picked.
+TEST(RasterPlan, TheSecondRoundComesLast) {
+  RasterPlan plan = smallPlan();
+  const std::vector<PlanPerson> people = {
+      {0, 2, true}, {1, 2, false}, {0, 1, true}, {0, 2, false}, {1, 0, true}};
+  plan.build(people, 4, plan.faceBits(), poseAt);
+  ASSERT_TRUE(plan.hasSecondRound());
+  std::uint64_t triangles = 0, entries = 0;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> picked;
+  for (std::uint32_t b = 0; b < plan.batches().size(); ++b) {
+    const PlanBatch& batch = plan.batches()[b];
+    EXPECT_EQ(batch.is_late, batch.first_group >= plan.firstLateGroup());
+    for (std::uint32_t g = batch.first_group; g < batch.first_group + batch.group_count; ++g) {
+      const GpuRasterGroup& group = plan.groups()[g];
+      const GpuRasterWork& work = plan.work()[group.work];
+      EXPECT_EQ(work.batch, b);
+      const std::uint32_t first = work.first_picked + group.first_triangle / 8 * group.entry_count;
+      for (std::uint32_t e = 0; e < group.entry_count; ++e) {
+        const std::uint32_t person = plan.entries()[group.first_entry + e] >> plan.faceBits();
+        EXPECT_EQ(people[person].is_late, batch.is_late);
+        if (!batch.is_late) continue;
+        EXPECT_GE(first + e, plan.entries().size());
+        EXPECT_TRUE(picked.emplace(first + e, g).second);
+        ++entries;
+        triangles += std::min(8u, work.triangle_count - group.first_triangle);
+      }
+    }
+  }
+  EXPECT_EQ(entries, plan.pickedCount());
+  EXPECT_EQ(picked.rbegin()->first + 1, plan.entries().size() + plan.pickedCount());
+  EXPECT_EQ(triangles, plan.lateTriangleCount());
+  EXPECT_EQ(plan.triangleCount(), 3u * 27u + 2u * 20u);
+  plan.build({people.data(), 0}, 4, plan.faceBits(), poseAt);
+  EXPECT_FALSE(plan.hasSecondRound());
+}
+
 TEST(RasterPlan, NobodyIsNoWork) {
   RasterPlan plan = smallPlan();
   plan.build(std::vector<PlanPerson>{{0, 1}}, 4, plan.faceBits(), poseAt);

@@ -13,6 +13,7 @@
 #include "spirv/crowd.vert.h"
 #include "spirv/environment.frag.h"
 #include "spirv/environment.vert.h"
+#include "spirv/occlusion_pick.comp.h"
 #include "spirv/pose.comp.h"
 #include "spirv/raster.comp.h"
 #include "spirv/raster_list.comp.h"
@@ -158,6 +159,11 @@ TEST(ShaderLayout, WorkOfTheComputeRasteriser) {
   EXPECT_EQ(raster.strides.at("GpuRasterGroup"), sizeof(GpuRasterGroup));
   EXPECT_EQ(list.offsets.at("GpuRasterBin").at("groups_x"), offsetof(GpuRasterBin, groups_x));
   EXPECT_EQ(list.strides.at("GpuRasterBin"), sizeof(GpuRasterBin));
+  const Reflection pick(kOcclusionPickComp);
+  EXPECT_EQ(pick.offsets.at("GpuRasterWork"), work);
+  EXPECT_EQ(pick.offsets.at("GpuRasterGroup"), raster.offsets.at("GpuRasterGroup"));
+  EXPECT_EQ(pick.strides.at("GpuRasterBatch"), sizeof(GpuRasterBatch));
+  EXPECT_EQ(pick.offsets.at("GpuRasterBatch").at("groups_x"), offsetof(GpuRasterBatch, groups_x));
   const auto& job = skin.offsets.at("GpuSkinJob");
   EXPECT_EQ(job.at("first_vertex"), offsetof(GpuSkinJob, first_vertex));
   EXPECT_EQ(job.at("first_matrix"), offsetof(GpuSkinJob, first_matrix));

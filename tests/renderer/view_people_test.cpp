@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "renderer/longest_edges.h"
+#include "renderer/posed_extents.h"
 #include "renderer/raster_people.h"
 #include "tests/renderer/test_wardrobe.h"
 
@@ -157,20 +157,24 @@ TEST(KeyFrames, BetweenWhichKeysSomebodyIs) {
   EXPECT_FALSE(betweenKeys(frames, character)) << "a foot is held";
 }
 
-TEST(LongestEdges, AreThoseOfThePosedMeshes) {
+TEST(PosedExtents, AreThoseOfThePosedMeshes) {
   const Wardrobe wardrobe = testing::tubeWardrobe();
   const std::vector<Wardrobe> wardrobes = {wardrobe};
   const Animation animation = buildAnimation(wardrobes);
   const std::vector<Combination> combinations = {{}};
   const SubMeshLists lists = buildSubMeshLists(wardrobe, combinations, Technique::kTagged);
-  const std::vector<float> longest = longestEdges(lists, animation, 0);
-  ASSERT_EQ(longest.size(), lists.meshes.size() * animation.clips.size());
+  const PosedExtents extents = posedExtents(lists, animation, 0, 5);
+  ASSERT_EQ(extents.clip_count, animation.clips.size());
+  ASSERT_EQ(extents.longest_edges.size(), lists.meshes.size() * extents.clip_count);
+  ASSERT_EQ(extents.run_boxes.size(), lists.index_lists.size());
   // The bare body's, straight from the template and its clips.
   for (std::size_t c = 0; c < wardrobe.body.clips.size(); ++c) {
     const Clip& clip = wardrobe.body.clips[c];
     float most = 0.0f;
+    Box box;
     for (std::uint32_t key = 0; key < clip.key_count; ++key) {
       const std::vector<Mat4> matrices = skinningMatrices(wardrobe.body.skeleton, clip.key(key));
+      for (const auto& vertex : wardrobe.body.vertices) box.add(skinPosition(vertex, matrices));
       for (const Triangle& face : wardrobe.body.faces) {
         for (std::size_t k = 0; k < 3; ++k) {
           most = std::max(
@@ -181,7 +185,20 @@ TEST(LongestEdges, AreThoseOfThePosedMeshes) {
       }
     }
     EXPECT_GT(most, 0.01f);
-    EXPECT_NEAR(longest[c], most, 1e-4f);
+    EXPECT_NEAR(extents.longest_edges[c], most, 1e-4f);
+    Box of_runs;
+    for (std::size_t l = 0; l < lists.index_lists.size(); ++l) {
+      const std::size_t runs = (lists.index_lists[IndexListId(l)].indices.size() / 3 + 4) / 5;
+      ASSERT_EQ(extents.run_boxes[l].size(), runs * extents.clip_count);
+      for (std::size_t run = 0; run < runs; ++run) {
+        const Box& own = extents.run_boxes[l][run * extents.clip_count + c];
+        of_runs.low = glm::min(of_runs.low, own.low);
+        of_runs.high = glm::max(of_runs.high, own.high);
+        EXPECT_LT(own.extent().y, 0.9f * box.extent().y) << "a few triangles";
+      }
+    }
+    EXPECT_LT(glm::distance(of_runs.low, box.low), 1e-4f);
+    EXPECT_LT(glm::distance(of_runs.high, box.high), 1e-4f);
   }
 }
 
