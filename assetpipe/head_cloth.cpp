@@ -58,9 +58,9 @@ std::shared_ptr<SolidGroup> headSolids(const TailorFrame& frame, const GarmentRe
     const LoftFrame at{frame.fromHead(Vec3(0.0f)), Mat3(1.0f)};
     group->join(
         Solid::loft(at,
-                    {row(-length - 0.032f, -0.022f - 0.20f * longer, 0.074f, 0.040f, 0.054f + 0.55f * longer),
-                     row(-0.88f * length, -0.016f - 0.12f * longer, 0.088f, 0.052f, 0.074f + 0.35f * longer),
-                     row(-0.42f * length, -0.012f, 0.088f, 0.056f, 0.090f),
+                    {row(-length - 0.032f, -0.022f - 0.20f * longer, 0.074f, 0.040f, 0.054f + 0.85f * longer),
+                     row(-0.88f * length, -0.016f - 0.12f * longer, 0.088f, 0.052f, 0.074f + 0.72f * longer),
+                     row(-0.42f * length, -0.012f, 0.088f, 0.056f, 0.090f + 0.40f * longer),
                      row(0.005f, -0.010f, 0.083f, 0.060f, 0.094f)}),
         0.03f * frame.headScale());
   }
