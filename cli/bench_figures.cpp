@@ -117,6 +117,7 @@ Json toJson(const ContestRow& row) {
            shareOf(row, &FrameStats::characters_computed, &FrameStats::characters_drawn)},
           {"share_of_triangles_computed",
            shareOf(row, &FrameStats::triangles_computed, &FrameStats::people_triangles)},
+          {"culling", row.rounds.back().culled_on_device ? "device" : "host"},
           {"poses", posesOf(row)},
           {"pose_bytes", row.rounds.back().poses.kept_bytes},
           {"rounds", row.rounds.size()},

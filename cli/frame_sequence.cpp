@@ -42,6 +42,7 @@ Json toJson(std::uint32_t index, const std::string& file, const FrameStats& stat
           {"characters_posed", stats.characters_posed},
           {"characters_computed", stats.characters_computed},
           {"triangles_computed", stats.triangles_computed},
+          {"culling", stats.culled_on_device ? "device" : "host"},
           {"triangles_hidden", stats.triangles_hidden},
           {"poses", toJson(stats.poses)},
           {"draw_calls", stats.drawCalls()},

@@ -262,8 +262,8 @@ void readPoses(const YamlValue& value, ScenePoses& poses) {
 
 void readScene(const YamlValue& root, Scene& scene) {
   if (root.kind() == YamlKind::kNull) root.fail("the scene is empty", "begin with 'version: 1'");
-  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "occlusion", "debug", "poses",
-                   "environment", "crowd", "people", "camera", "light", "ground"});
+  root.expectKeys({"version", "wardrobe", "technique", "output", "raster", "culling", "occlusion", "debug",
+                   "poses", "environment", "crowd", "people", "camera", "light", "ground"});
   readVersion(root);
   readWardrobes(root, scene);
   if (const auto technique = root.find("technique")) {
@@ -272,6 +272,10 @@ void readScene(const YamlValue& root, Scene& scene) {
   if (const auto output = root.find("output")) readOutput(*output, scene.output);
   if (const auto raster = root.find("raster")) {
     scene.raster = kAllRasterKinds[raster->word({"auto", "pipeline", "compute"})];
+  }
+  if (const auto culling = root.find("culling")) {
+    constexpr CullingKind kKinds[] = {CullingKind::kAuto, CullingKind::kHost, CullingKind::kDevice};
+    scene.culling = kKinds[culling->word({"auto", "host", "device"})];
   }
   if (const auto occlusion = root.find("occlusion")) scene.occlusion = occlusion->boolean();
   if (const auto debug = root.find("debug")) {

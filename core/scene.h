@@ -152,6 +152,11 @@ inline constexpr RasterKind kAllRasterKinds[] = {RasterKind::kAuto, RasterKind::
 const char* toString(RasterKind kind);  ///< "auto", "pipeline", "compute"
 std::optional<RasterKind> parseRasterKind(std::string_view name);
 
+/// Where it is found out who is in sight, and who shows which sub-mesh, for the graphics pipeline's draws.
+/// kAuto: on the device where that is a GPU. Whom the compute rasteriser may draw the host plans, and then
+/// all others.
+enum class CullingKind : std::uint8_t { kAuto, kHost, kDevice };
+
 /// What is laid over a picture, to tell how it was drawn.
 enum class DebugKind : std::uint8_t { kNone, kRasteriser, kPose, kOverdraw };
 
@@ -173,6 +178,7 @@ struct Scene {
   Technique technique = Technique::kTagged;
   SceneOutput output;
   RasterKind raster = RasterKind::kAuto;
+  CullingKind culling = CullingKind::kAuto;
   bool occlusion = false;  ///< people whom nearer ones hide are left out by the compute rasteriser
   DebugKind debug = DebugKind::kNone;
   ScenePoses poses;

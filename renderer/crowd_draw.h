@@ -7,6 +7,7 @@
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_layout.h"
 #include "renderer/crowd_pipeline.h"
+#include "renderer/device_queues.h"
 #include "renderer/queue_buffers.h"
 
 namespace ensemble {
@@ -27,6 +28,7 @@ struct CrowdDraw {
   const CrowdLayout* layout = nullptr;
   const QueueBuffers* queues = nullptr;
   vk::DescriptorSet view_set;
+  const DeviceQueues* device_queues = nullptr;  ///< in place of `queues` where shaders have built them
   EnvironmentDraw environment = {};
 };
 
@@ -67,23 +69,40 @@ inline void bindBatch(const vk::raii::CommandBuffer& commands, const CrowdDraw& 
 template <class PipelineOf>
 void recordCrowd(const vk::raii::CommandBuffer& commands, const CrowdDraw& draw, VertexCounter* counter,
                  std::uint32_t counted_pass, const PipelineOf& pipeline_of) {
+  constexpr std::uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
   const vk::PipelineLayout layout = *draw.layout->pipelineLayout();
   vk::Pipeline bound;
-  for (std::size_t i = 0; i < draw.queues->chunks().size(); ++i) {
-    const QueueBuffers::Chunk& chunk = draw.queues->chunks()[i];
-    if (chunk.batches.empty()) continue;
-    const std::array<vk::DescriptorSet, 2> sets = {draw.view_set, draw.queues->set(i)};
+  const auto bind_chunk = [&](vk::DescriptorSet people) {
+    const std::array<vk::DescriptorSet, 2> sets = {draw.view_set, people};
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, ENSEMBLE_SET_VIEW, sets, nullptr);
-    for (const DrawBatch& batch : chunk.batches) {
-      const vk::Pipeline pipeline = *pipeline_of(batch.state);
-      if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-      if (!bound && counter) counter->begin(commands, counted_pass);
-      bound = pipeline;
-      bindBatch(commands, draw, batch.state);
-      commands.pushConstants<std::uint32_t>(layout, vk::ShaderStageFlagBits::eVertex, 0, batch.first_draw);
-      constexpr std::uint32_t kStride = sizeof(vk::DrawIndexedIndirectCommand);
-      commands.drawIndexedIndirect(chunk.commands.handle(), std::uint64_t{batch.first_draw} * kStride,
-                                   batch.draw_count, kStride);
+  };
+  const auto bind_batch = [&](const DrawBatch& batch) {
+    const vk::Pipeline pipeline = *pipeline_of(batch.state);
+    if (pipeline != bound) commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    if (!bound && counter) counter->begin(commands, counted_pass);
+    bound = pipeline;
+    bindBatch(commands, draw, batch.state);
+    commands.pushConstants<std::uint32_t>(layout, vk::ShaderStageFlagBits::eVertex, 0, batch.first_draw);
+    return std::uint64_t{batch.first_draw} * kStride;
+  };
+  if (const DeviceQueues* queues = draw.device_queues) {
+    for (std::size_t i = 0; i < queues->chunks().size(); ++i) {
+      const DeviceQueues::Chunk& chunk = queues->chunks()[i];
+      bind_chunk(queues->set(i));
+      for (std::size_t b = 0; b < queues->batches().size(); ++b) {
+        const DrawBatch& batch = queues->batches()[b];
+        const std::uint64_t first = bind_batch(batch);
+        commands.drawIndexedIndirectCount(chunk.commands.handle(), first, chunk.draw_counts.handle(),
+                                          b * sizeof(std::uint32_t), batch.draw_count, kStride);
+      }
+    }
+  } else {
+    for (std::size_t i = 0; i < draw.queues->chunks().size(); ++i) {
+      const QueueBuffers::Chunk& chunk = draw.queues->chunks()[i];
+      if (chunk.batches.empty()) continue;
+      bind_chunk(draw.queues->set(i));
+      for (const DrawBatch& batch : chunk.batches)
+        commands.drawIndexedIndirect(chunk.commands.handle(), bind_batch(batch), batch.draw_count, kStride);
     }
   }
   if (bound && counter) counter->end(commands, counted_pass);

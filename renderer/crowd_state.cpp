@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/check.h"
@@ -22,7 +21,7 @@ constexpr std::initializer_list<vk::DescriptorType> kPoseBindings = {
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eCombinedImageSampler,
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-    vk::DescriptorType::eStorageBuffer};
+    vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
 
 }  // namespace
 
@@ -102,6 +101,8 @@ void CrowdState::makeChunks(gpu::Device& device, const Animation& animation, std
     chunk.pose_queue =
         gpu::Buffer(device, chunk.count * sizeof(GpuPoseJob), Usage::eStorageBuffer,
                     gpu::Buffer::Kind::kUpload, fmt::format("the pose queue of {} people", chunk.count));
+    chunk.pose_head = gpu::Buffer(device, sizeof(GpuPoseHead), Usage::eStorageBuffer | Usage::eIndirectBuffer,
+                                  gpu::Buffer::Kind::kUpload, "the head of a pose queue");
   }
 }
 
@@ -118,14 +119,10 @@ void CrowdState::createPipeline(gpu::Device& device) {
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_QUEUE, chunks_[i].pose_queue);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_LEGS, legs_);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_LEG_GROUPS, leg_groups_);
+    gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_HEAD, chunks_[i].pose_head);
   }
-  const vk::PushConstantRange push{
-      .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(std::uint32_t)};
-  layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                                             .pSetLayouts = &*set_layout_,
-                                                                             .pushConstantRangeCount = 1,
-                                                                             .pPushConstantRanges = &push}));
+  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
+      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout_}));
   pipeline_ = gpu::makeComputePipeline(device, layout_, kPoseComp);
 }
 
@@ -139,7 +136,7 @@ void CrowdState::setWalker(const Character& person, double seconds, GpuCharacter
   const float radius =
       kReachForPrints * (std::max(walk.radius, idle.radius) + glm::distance(walk.center, idle.center));
   setPlace(pose.world_from_model, {walk.center, radius}, person.scale, character, bounds);
-  if (!pose.exists) bounds.radius = -std::numeric_limits<float>::infinity();
+  if (!pose.exists) bounds.radius = kTouchesNothing;
   character.phase = pose.phase;
   character.idle_clip = first_clip + pose.idle_clip;
   character.idle_phase = pose.idle_phase;
@@ -160,7 +157,7 @@ void CrowdState::setTime(double seconds) {
       character.phase = phaseAt(seconds, clip_seconds_[character.clip], person.phase, person.speed);
     }
   }
-  pose_of_.assign(characters_.size(), kNoPose);
+  forgetPoses();
   for (CrowdChunk& chunk : chunks_) {
     std::copy_n(characters_.begin() + chunk.first, chunk.count,
                 chunk.characters.mapped<GpuCharacter>().begin());
@@ -168,7 +165,13 @@ void CrowdState::setTime(double seconds) {
   }
 }
 
+void CrowdState::forgetPoses() {
+  pose_of_.assign(characters_.size(), kNoPose);
+  device_queues_ = false;
+}
+
 std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown) {
+  if (device_queues_) forgetPoses();  // The host did not see who was posed since.
   std::uint32_t queued = 0;
   for (const std::uint32_t person : people) {
     const std::uint32_t key = shown.key(person);
@@ -189,9 +192,13 @@ void CrowdState::recordPoses(const vk::raii::CommandBuffer& commands) {
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const std::uint32_t queued = std::exchange(chunks_[i].pose_queue_length, 0u);
-    if (queued == 0) continue;
+    if (queued == 0 && !device_queues_) continue;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, sets_[i], nullptr);
-    commands.pushConstants<std::uint32_t>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, queued);
+    if (device_queues_) {
+      commands.dispatchIndirect(chunks_[i].pose_head.handle(), offsetof(GpuPoseHead, groups_x));
+      continue;
+    }
+    chunks_[i].pose_head.mapped<GpuPoseHead>()[0].count = queued;
     gpu::recordDispatch(commands, queued);
   }
   gpu::recordBarrier(commands, Stage::eComputeShader, vk::AccessFlagBits2::eShaderStorageWrite,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "renderer/animation_texture.h"
@@ -22,6 +23,7 @@ struct CrowdChunk {
   gpu::Buffer palette;                 ///< world_from_model * skinning matrix, three rows a joint
   vk::raii::BufferView palette_view = nullptr;
   gpu::Buffer pose_queue;  ///< GpuPoseJob of those whose poses are to be computed, mapped
+  gpu::Buffer pose_head;   ///< GpuPoseHead of that queue, mapped
   std::uint32_t pose_queue_length = 0;
 };
 
@@ -45,6 +47,7 @@ class CrowdState {
   std::uint32_t chunkOf(std::uint32_t person) const { return chunk_of_[person]; }
   const KeyFrames& keyFrames() const { return key_frames_; }
   const gpu::Image& animationTexture() const { return texture_; }
+  const gpu::Buffer& clips() const { return clips_; }  ///< GpuClip
 
   /// Brings phases to a time, at which nobody has a pose yet. The device must not be reading the
   /// characters.
@@ -52,8 +55,11 @@ class CrowdState {
   /// Queues those of `people` (numbers in the crowd) who don't have their poses yet, and says how many they
   /// were. The device must be done with the pose pass before. @param shown who is at a key frame
   std::uint32_t queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown);
+  /// From now on shaders fill the queues, until setTime() or queuePoses().
+  /// @return whether they did not since then: nobody has a pose yet that they would know of
+  bool letDeviceQueue() { return !std::exchange(device_queues_, true); }
   /// Records the pose pass: fills the palettes of those queued, readable by vertex and compute shaders
-  /// afterwards, and empties the queues.
+  /// afterwards, and empties the queues of the host.
   void recordPoses(const vk::raii::CommandBuffer& commands);
 
  private:
@@ -63,6 +69,7 @@ class CrowdState {
   void setWalker(const Character& person, double seconds, GpuCharacter& character, Sphere& bounds) const;
   void makeChunks(gpu::Device& device, const Animation& animation, std::uint64_t max_buffer_bytes);
   void createPipeline(gpu::Device& device);
+  void forgetPoses();
 
   const Crowd& crowd_;
   std::vector<std::uint32_t> first_clip_;  // per wardrobe
@@ -73,6 +80,7 @@ class CrowdState {
   std::vector<Sphere> bounds_;
   std::vector<float> heights_;
   std::vector<std::uint32_t> pose_of_;  // per person, at this time: GpuPoseJob::key_matrix, or kNoPose
+  bool device_queues_ = false;
   std::vector<CrowdChunk> chunks_;
   std::vector<std::uint32_t> chunk_of_;  // per person
 

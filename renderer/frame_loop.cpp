@@ -89,6 +89,7 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
                                         ComputeRasterOptions{.pose_cache_bytes = limits.pose_cache_bytes,
                                                              .max_buffer_bytes = limits.max_buffer_bytes});
   }
+  can_cull_on_device_ = DeviceCulling::isPossible(device, assets, state, limits.max_buffer_bytes);
   extents_.longest_edges.resize(state.characterCount(), 0.0f);
   for (const CrowdChunk& chunk : state.chunks()) first_of_chunk_.push_back(chunk.first);
   for (std::vector<std::uint32_t>* list :
@@ -156,6 +157,10 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
   stats.gpu_mesh_bytes = assets_.meshBytes();
   stats.environment_bytes = environment_ ? environment_->meshBytes() : 0;
   if (compute_) compute_->beginFrame();
+  culls_on_device_ = cullsOnDevice(view, slot.targets.size);
+  if (culls_on_device_ && !culling_)
+    culling_ = std::make_unique<DeviceCulling>(device_, layout_, assets_, state_);
+  stats.culled_on_device = culls_on_device_;
   choosePeople(view, fit, slot.targets.size);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
   stats.characters_computed = static_cast<std::uint32_t>(computed_.size());
@@ -168,8 +173,12 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     slot.targets.tile = grid[i];
     buildQueues(view, slot.targets.tile);
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
-    stats.characters_posed += queuePoses(near_, computed_);
-    if (is_first) stats.characters_posed += queuePoses(near_casters_, computed_casters_);
+    if (culls_on_device_) {
+      culling_->aim(view, slot.targets.tile, fit, is_first);
+    } else {
+      stats.characters_posed += queuePoses(near_, computed_);
+      if (is_first) stats.characters_posed += queuePoses(near_casters_, computed_casters_);
+    }
     prepareCompute(view, slot);
     record(view, slot, is_first);
     stats.cpu_ms += millisecondsSince(start);
@@ -177,6 +186,10 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     readColor(slot.targets, view, picture);
     stats.frame_ms += millisecondsSince(start);
     addStats(is_first, stats);
+    if (culls_on_device_) {
+      if (is_first) stats.characters_drawn = culling_->peopleInPicture();
+      stats.characters_posed += culling_->peoplePosed();
+    }
     timer_.addTo(stats.parts_ms);
     if (!view.aovs.empty()) recordAovs(view, slot);
     readAovs(slot.targets, view, picture);
@@ -199,7 +212,22 @@ void FrameLoop::requireCompute(const TargetSize& size) const {
        .mend = "set raster to auto"});
 }
 
+bool FrameLoop::cullsOnDevice(const View& view, const TargetSize& size) const {
+  if (view.culling == CullingKind::kHost || view.coverage || view.debug != DebugKind::kNone) return false;
+  if (view.culling == CullingKind::kAuto && device_.isCpu()) return false;  // the cores are the same
+  const std::size_t most = mayCompute(size) ? compute_->mostPeople() : 0;
+  return can_cull_on_device_ && !ViewPeople::mayCompute(view, state_.characterCount(), most);
+}
+
+const DeviceQueues* FrameLoop::deviceQueues(const DeviceQueues& (DeviceCulling::*queues)() const) const {
+  return culls_on_device_ ? &((*culling_).*queues)() : nullptr;
+}
+
 void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size) {
+  if (culls_on_device_) {
+    for (std::vector<std::uint32_t>* list : {&visible_, &casters_, &near_, &computed_}) list->clear();
+    return;
+  }
   findVisible(frustumOf(view), state_.bounds(), visible_);
   if (view.light.shadows) {
     findCasters(fit, state_.bounds(), casters_);
@@ -259,10 +287,12 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
 
 void FrameLoop::buildQueues(const View& view, const Tile& tile) {
   const Frustum frustum = frustumOf(view, tile);
-  findVisible(frustum, state_.bounds(), visible_);
-  divide(
-      visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
-  main_queues_.build(assets_, state_, near_);
+  if (!culls_on_device_) {
+    findVisible(frustum, state_.bounds(), visible_);
+    divide(
+        visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
+    main_queues_.build(assets_, state_, near_);
+  }
   if (compute_) {
     compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_,
                    {.is_on = view.occlusion, .drawn_hides = environment_pass_ || !near_.empty()});
@@ -275,7 +305,7 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
   divide(
       casters_, [&](std::uint32_t person) { return shown_.castsComputed(person); }, computed_casters_,
       near_casters_);
-  shadow_queues_.build(assets_, state_, near_casters_);
+  if (!culls_on_device_) shadow_queues_.build(assets_, state_, near_casters_);
   if (compute_) compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_, {});
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },
@@ -308,6 +338,8 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
   ENSEMBLE_VK(commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit}));
   counter_.reset(commands_);
   timer_.begin(commands_);
+  if (culls_on_device_) culling_->record(commands_);
+  timer_.end(commands_, FramePart::kCulling);
   state_.recordPoses(commands_);
   if (compute_) compute_->recordPoses(commands_);
   timer_.end(commands_, FramePart::kPoses);
@@ -317,6 +349,7 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
                        .layout = &layout_,
                        .queues = &main_queues_,
                        .view_set = slot.view_set[0],
+                       .device_queues = deviceQueues(&DeviceCulling::main),
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   const bool computed = computes(ComputeRaster::Eye::kCamera);
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain, computed);
@@ -337,6 +370,7 @@ void FrameLoop::recordShadows(const View& view, const Slot& slot) {
                        .layout = &layout_,
                        .queues = &shadow_queues_,
                        .view_set = slot.view_set[0],
+                       .device_queues = deviceQueues(&DeviceCulling::shadow),
                        .environment = {environment_pass_.get(), &shadow_environment_, kEnvironmentShadow}};
   std::function<void()> fill;
   if (computes(Eye::kSun)) {
@@ -352,6 +386,7 @@ void FrameLoop::recordAovs(const View& view, const Slot& slot) {
                        .layout = &layout_,
                        .queues = &main_queues_,
                        .view_set = slot.view_set[0],
+                       .device_queues = deviceQueues(&DeviceCulling::main),
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   const auto draw_computed = [&] {
     compute_->record(commands_, draw.view_set, slot.computed_aovs, view.camera.near_plane);
@@ -426,8 +461,9 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
     add(queue.counts, number, pass);
     add(queue.counts, number, stats.environment);
   };
-  add(main_queues_.counts(), kMain, stats.main);
-  stats.people_triangles += main_queues_.counts().triangles;
+  const DrawCounts drawn = culls_on_device_ ? culling_->main().counts() : main_queues_.counts();
+  add(drawn, kMain, stats.main);
+  stats.people_triangles += drawn.triangles;
   if (compute_) {
     const std::uint64_t computed = compute_->triangleCount(ComputeRaster::Eye::kCamera);
     addComputed(*compute_, ComputeRaster::Eye::kCamera, stats.main);
@@ -443,7 +479,7 @@ void FrameLoop::addStats(bool drew_shadows, FrameStats& stats) const {
   }
   add_environment(main_environment_, kEnvironmentMain, stats.main);
   if (!drew_shadows) return;
-  add(shadow_queues_.counts(), kShadow, stats.shadow);
+  add(culls_on_device_ ? culling_->shadow().counts() : shadow_queues_.counts(), kShadow, stats.shadow);
   if (compute_) addComputed(*compute_, ComputeRaster::Eye::kSun, stats.shadow);
   add_environment(shadow_environment_, kEnvironmentShadow, stats.shadow);
 }

@@ -14,6 +14,7 @@
 #include "renderer/crowd_assets.h"
 #include "renderer/crowd_extents.h"
 #include "renderer/crowd_state.h"
+#include "renderer/device_culling.h"
 #include "renderer/environment_pass.h"
 #include "renderer/overdraw_pass.h"
 #include "renderer/part_timer.h"
@@ -63,6 +64,11 @@ class FrameLoop {
   /// @throws SystemError if a view asks for the compute rasteriser and can't have it
   void requireCompute(const TargetSize& size) const;
   bool mayCompute(const TargetSize& size) const { return compute_ && compute_->fits(size); }
+  /// Whether a view's people are culled and queued by shaders: where nobody can be the compute rasteriser's,
+  /// and nothing else needs to know of them on the host.
+  bool cullsOnDevice(const View& view, const TargetSize& size) const;
+  /// What shaders have queued, if they do. @param queues of DeviceCulling
+  const DeviceQueues* deviceQueues(const DeviceQueues& (DeviceCulling::*queues)() const) const;
   void buildQueues(const View& view, const Tile& tile);
   void buildShadowQueues(const View& view, const ShadowFit& fit);
   /// Queues the palettes of those whom the pipeline draws and of those whom compute skins by them.
@@ -94,6 +100,9 @@ class FrameLoop {
   std::unique_ptr<CoveragePass> coverage_pass_;  // likewise
   std::unique_ptr<OverdrawPass> overdraw_pass_;  // likewise
   std::unique_ptr<ComputeRaster> compute_;       // null where it can't be
+  std::unique_ptr<DeviceCulling> culling_;       // made when first needed
+  bool can_cull_on_device_ = false;
+  bool culls_on_device_ = false;  // the view at hand
   std::unique_ptr<EnvironmentPass> environment_pass_;
   EnvironmentQueue main_environment_, shadow_environment_;
   QueueBuffers main_queues_, shadow_queues_;

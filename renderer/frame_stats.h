@@ -29,6 +29,7 @@ struct PoseStats {
 
 /// What the device does for a frame, in this order; AOVs left out.
 enum class FramePart : std::uint8_t {
+  kCulling,   ///< people, queues and draws, where the device finds them
   kPoses,     ///< palettes, and vertices for the compute rasteriser
   kShadows,   ///< the shadow map, by both rasterisers
   kPipeline,  ///< the picture as the graphics pipeline draws it: people, environment, ground, sky
@@ -36,9 +37,9 @@ enum class FramePart : std::uint8_t {
   kShading,   ///< its pixels listed, sorted, shaded
   kPost,      ///< to sRGB, and to memory
 };
-inline constexpr std::size_t kFramePartCount = 6;
-inline constexpr std::array<const char*, kFramePartCount> kFramePartNames = {"poses",  "shadows", "pipeline",
-                                                                             "raster", "shading", "post"};
+inline constexpr std::size_t kFramePartCount = 7;
+inline constexpr std::array<const char*, kFramePartCount> kFramePartNames = {
+    "culling", "poses", "shadows", "pipeline", "raster", "shading", "post"};
 /// Milliseconds; all 0 where the device has no timestamps.
 using PartTimes = std::array<double, kFramePartCount>;
 
@@ -47,10 +48,10 @@ struct FrameStats {
   std::uint32_t characters_posed = 0;  ///< whose palettes this view needed first: not of those whom compute
                                        ///< draws from kept poses
   std::uint32_t characters_computed = 0;  ///< of those drawn: by the compute rasteriser
-
-  std::uint64_t people_triangles = 0;    ///< of the picture's triangles: those of people
-  std::uint64_t triangles_computed = 0;  ///< of these: by the compute rasteriser
-  std::uint64_t triangles_hidden = 0;    ///< left out of the picture: nearer people hide them
+  std::uint64_t people_triangles = 0;     ///< of the picture's triangles: those of people
+  std::uint64_t triangles_computed = 0;   ///< of these: by the compute rasteriser
+  std::uint64_t triangles_hidden = 0;     ///< left out of the picture: nearer people hide them
+  bool culled_on_device = false;          ///< people, queues and draws; else by the host
   PoseStats poses;
   PassStats shadow;                     ///< the shadow map
   PassStats main;                       ///< the picture

@@ -133,6 +133,7 @@ std::vector<PersonTruth> truthOf(const Crowd& crowd, std::span<const Wardrobe> w
   const PinholeCamera camera = pinholeOf(view);
   std::vector<float> heights;
   for (const Wardrobe& wardrobe : wardrobes) heights.push_back(bodyHeight(wardrobe));
+  const SmallPeople small_people = smallPeopleOf(view);
   std::vector<PersonTruth> truths;
   for (std::uint32_t i = 0; i < people; ++i) {
     if (pixels[i].count == 0) continue;
@@ -140,9 +141,8 @@ std::vector<PersonTruth> truthOf(const Crowd& crowd, std::span<const Wardrobe> w
     const Wardrobe& wardrobe = wardrobes[person.wardrobe];
     const std::vector<Clip>& clips = wardrobe.body.clips;
     CharacterPose pose = poseAt(crowd, person, clips.empty() ? 0.0f : clips[person.clip].seconds, seconds);
-    const float size =
-        sizeOnScreen(view, Vec3(pose.world_from_model[3]), heights[person.wardrobe] * person.scale);
-    if (size < view.snap_below) pose = atNearestKey(wardrobe.body, pose);
+    if (small_people.hold(Vec3(pose.world_from_model[3]), heights[person.wardrobe] * person.scale))
+      pose = atNearestKey(wardrobe.body, pose);
     const std::vector<Mat4> matrices = posedMatrices(wardrobe.body, pose);
     PersonTruth& truth = truths.emplace_back();
     truth.number = i;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shaders/shared/culling.h"
 #include "shaders/shared/raster_types.h"
 
 namespace ensemble {
@@ -37,8 +38,7 @@ std::uint32_t nearestKey(const KeyFrames& frames, const GpuCharacter& character)
   const std::uint32_t clip = is_idle ? character.idle_clip : character.clip;
   const float phase = is_idle ? character.idle_phase : character.phase;
   const std::uint32_t last = frames.clips[clip].key_count - 1;
-  const auto key = static_cast<std::uint32_t>(phase * static_cast<float>(last) + 0.5f);
-  return frames.first_of_clip[clip] + std::min(key, last);
+  return frames.first_of_clip[clip] + culling::nearestKeyAt(phase, last);
 }
 
 std::optional<BetweenKeys> betweenKeys(const KeyFrames& frames, const GpuCharacter& character) {

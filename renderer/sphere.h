@@ -10,4 +10,7 @@ struct Sphere {
   float radius = 0.0f;
 };
 
+/// The radius of somebody who is not there: it touches nothing, and products with it stay finite.
+inline constexpr float kTouchesNothing = -1e30f;
+
 }  // namespace ensemble

@@ -36,6 +36,7 @@ struct View {
   std::uint32_t samples = 4;  ///< 1 or 4
   RasterKind raster = RasterKind::kAuto;
   DebugKind debug = DebugKind::kNone;  ///< laid over Picture::color alone
+  CullingKind culling = CullingKind::kAuto;
   bool occlusion = false;   ///< who is hidden by nearer people is left out of the compute rasteriser
   float snap_below = 0.0f;  ///< pixels: who is smaller on the screen is shown at the nearest key frame
   BackgroundKind background = BackgroundKind::kSky;

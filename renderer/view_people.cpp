@@ -23,6 +23,11 @@ float longestEdge(const PeopleAtTime& people, std::uint32_t p, bool is_exact) {
 
 }  // namespace
 
+bool ViewPeople::mayCompute(const View& view, std::size_t people, std::size_t most) {
+  if (most == 0 || view.raster == RasterKind::kPipeline) return false;
+  return view.raster != RasterKind::kAuto || people >= kLeastPeople;
+}
+
 void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames& frames,
                         const PeopleAtTime& people, std::span<const std::uint32_t> seen,
                         std::span<const std::uint32_t> casters, std::size_t most) {
@@ -30,11 +35,12 @@ void ViewPeople::choose(const View& view, const ShadowFit& fit, const KeyFrames&
   keys_.assign(count, kExact);
   is_computed_.assign(count, 0);
   casts_computed_.assign(count, 0);
-  const bool computes = view.raster != RasterKind::kPipeline;
+  const bool computes = mayCompute(view, count, most);
+  const SmallPeople small_people = smallPeopleOf(view);
   const auto set_key = [&](std::uint32_t p) {
     const vec4(&rows)[3] = people.characters[p].world_from_model;
-    const float size = sizeOnScreen(view, Vec3(rows[0].w, rows[1].w, rows[2].w), people.heights[p]);
-    if (size < view.snap_below) keys_[p] = nearestKey(frames, people.characters[p]);
+    if (small_people.hold(Vec3(rows[0].w, rows[1].w, rows[2].w), people.heights[p]))
+      keys_[p] = nearestKey(frames, people.characters[p]);
   };
   std::size_t computed = 0, cast = 0;
   for (const std::uint32_t p : seen) {

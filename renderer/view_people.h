@@ -25,6 +25,9 @@ class ViewPeople {
  public:
   static constexpr std::uint32_t kExact = 0xffffffffu;
 
+  /// Whether choose() may give anybody to the compute rasteriser. @param people of the crowd
+  static bool mayCompute(const View& view, std::size_t people, std::size_t most);
+
   /// Decides for the people of a view.
   /// @param seen, casters numbers, ascending: those in the whole picture, those who may cast shadows into it
   /// @param most whom the compute rasteriser can draw at once; 0: nobody

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/color.h"
+#include "shaders/shared/culling.h"
 
 namespace ensemble {
 namespace {
@@ -102,6 +103,7 @@ View viewOf(const Scene& scene, double seconds) {
   view.samples = scene.output.samples;
   view.raster = scene.raster;
   view.debug = scene.debug;
+  view.culling = scene.culling;
   view.occlusion = scene.occlusion;
   view.snap_below = scene.poses.snap_below;
   view.background = scene.output.background;
@@ -138,9 +140,20 @@ float sizeOnScreen(const View& view, const Vec3& feet, float height) {
   return pixelsPerTangent(view) * height / distance;
 }
 
+bool SmallPeople::hold(const Vec3& feet, float height) const {
+  return culling::isSmall(feet, height, eye, pixels, below_squared);
+}
+
+SmallPeople smallPeopleOf(const View& view) {
+  const float near_plane = view.camera.near_plane;
+  return {.eye = Vec4(view.camera.position, near_plane * near_plane),
+          .pixels = pixelsPerTangent(view),
+          .below_squared = view.snap_below * view.snap_below};
+}
+
 bool Frustum::touches(const Sphere& sphere) const {
   for (const Vec4& plane : planes) {
-    if (glm::dot(Vec3(plane), sphere.center) + plane.w < -sphere.radius) return false;
+    if (culling::isBehind(plane, Vec4(sphere.center, sphere.radius))) return false;
   }
   return true;
 }
@@ -214,13 +227,19 @@ ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds, const B
   return fit;
 }
 
+CasterRule casterRuleOf(const ShadowFit& fit) {
+  const Mat4 rows = glm::transpose(fit.shadow_from_world);
+  return {.across_x = rows[0],
+          .across_y = rows[1],
+          .scale = 2.0f / (fit.texel_side * static_cast<float>(fit.size))};
+}
+
 void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vector<std::uint32_t>& casters) {
   casters.clear();
-  const float scale = 2.0f / (fit.texel_side * static_cast<float>(fit.size));
+  const CasterRule rule = casterRuleOf(fit);
   for (std::uint32_t i = 0; i < bounds.size(); ++i) {
-    const Vec4 center = fit.shadow_from_world * Vec4(bounds[i].center, 1.0f);
-    const float reach = 1.0f + bounds[i].radius * scale;
-    if (std::abs(center.x) <= reach && std::abs(center.y) <= reach) casters.push_back(i);
+    const Vec4 ball(bounds[i].center, bounds[i].radius);
+    if (culling::castsInto(rule.across_x, rule.across_y, rule.scale, ball)) casters.push_back(i);
   }
 }
 

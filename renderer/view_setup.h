@@ -31,6 +31,15 @@ float pixelsPerTangent(const View& view);
 /// @param height metres
 float sizeOnScreen(const View& view, const Vec3& feet, float height);
 
+/// Who is less than a number of pixels tall on the screen, by that distance: as sizeOnScreen() has it but for
+/// the last bits, and to the last bit as shaders do.
+struct SmallPeople {
+  Vec4 eye{0.0f};  ///< the camera; w: near plane squared
+  float pixels = 0.0f, below_squared = 0.0f;
+  bool hold(const Vec3& feet, float height) const;
+};
+SmallPeople smallPeopleOf(const View& view);
+
 /// The planes that bound a picture; a point is inside where all dot(plane, (p, 1)) >= 0.
 struct Frustum {
   Vec4 planes[5];  ///< unit normals: left, right, bottom, top, near
@@ -56,6 +65,13 @@ struct ShadowFit {
   std::uint32_t size = 0;        ///< texels a side
 };
 ShadowFit fitShadowMap(const View& view, std::span<const Sphere> bounds, const Box& environment = {});
+
+/// How far balls are from a shadow map, in its clip space.
+struct CasterRule {
+  Vec4 across_x{0.0f}, across_y{0.0f};  ///< rows of shadow_from_world
+  float scale = 0.0f;                   ///< of a length
+};
+CasterRule casterRuleOf(const ShadowFit& fit);
 
 /// Numbers of the people who may cast into a shadow map, ascending.
 void findCasters(const ShadowFit& fit, std::span<const Sphere> bounds, std::vector<std::uint32_t>& casters);

@@ -19,7 +19,7 @@ layout(set = 0, binding = ENSEMBLE_BINDING_POSE_QUEUE, std430) readonly buffer Q
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_LEGS, std430) readonly buffer AllLegs { GpuLegs all_legs[]; };
 layout(set = 0, binding = ENSEMBLE_BINDING_POSE_LEG_GROUPS, std430) readonly buffer Groups { uint leg_groups[]; };
 
-layout(push_constant) uniform Push { uint queue_length; };
+layout(set = 0, binding = ENSEMBLE_BINDING_POSE_HEAD, std430) readonly buffer Head { GpuPoseHead head; };
 
 /// Three rows of a matrix.
 struct Rows {
@@ -84,7 +84,7 @@ Rows holdFoot(GpuCharacter character, GpuLegs legs, uint group, Rows rows) {
 
 void main() {
   uint index = groupNumber();
-  if (index >= queue_length) return;
+  if (index >= head.count) return;
   GpuPoseJob job = queue[index];
   GpuCharacter character = characters[job.character];
   GpuClip clip = clips[character.clip];

@@ -211,6 +211,9 @@ void Device::choosePhysicalDevice() {
   queue_family_ = *graphicsQueueFamily(physical_);
   has_timestamps_ = countsTime(physical_, queue_family_);
   can_rasterise_ = canRasteriseOn(physical_);
+  can_count_draws_ = physical_.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>()
+                         .get<vk::PhysicalDeviceVulkan12Features>()
+                         .drawIndirectCount;
   subgroup_size_ =
       physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>()
           .get<vk::PhysicalDeviceSubgroupProperties>()
@@ -229,7 +232,8 @@ void Device::createDevice() {
                                          .shaderInt64 = can_rasterise_};
   vk::PhysicalDeviceVulkan13Features v13{
       .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-  vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .shaderBufferInt64Atomics = can_rasterise_};
+  vk::PhysicalDeviceVulkan12Features v12{
+      .pNext = &v13, .drawIndirectCount = can_count_draws_, .shaderBufferInt64Atomics = can_rasterise_};
   vk::PhysicalDeviceVulkan11Features v11{.pNext = &v12, .shaderDrawParameters = true};
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue_info{

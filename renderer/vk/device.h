@@ -53,6 +53,8 @@ class Device {
   /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers, shuffles and ballots
   /// in subgroups.
   bool canRasterise() const { return can_rasterise_; }
+  /// Whether draws may take their number from a buffer.
+  bool canCountDraws() const { return can_count_draws_; }
   std::uint32_t subgroupSize() const { return subgroup_size_; }
   std::vector<std::string> validationMessages() const { return log_.messages(); }
 
@@ -86,6 +88,7 @@ class Device {
   std::uint32_t queue_family_ = 0;
   bool has_timestamps_ = false;
   bool can_rasterise_ = false;
+  bool can_count_draws_ = false;
   std::uint32_t subgroup_size_ = 1;
   vk::raii::Device device_ = nullptr;
   vk::raii::Queue queue_ = nullptr;

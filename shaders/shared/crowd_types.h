@@ -34,6 +34,7 @@
 #define ENSEMBLE_BINDING_POSE_QUEUE 4
 #define ENSEMBLE_BINDING_POSE_LEGS 5
 #define ENSEMBLE_BINDING_POSE_LEG_GROUPS 6
+#define ENSEMBLE_BINDING_POSE_HEAD 7
 
 // The post pass: the resolved linear picture in, the sRGB picture out.
 #define ENSEMBLE_BINDING_POST_LINEAR 0
@@ -102,6 +103,14 @@ struct GpuCharacter {
 struct GpuPoseJob {
   uint character;
   uint key_matrix;  ///< 0: as the clips run; else 1 + the first matrix of the key frame that is shown
+};
+
+/// How many they are, and the groups that the pose pass is dispatched with.
+struct GpuPoseHead {
+  uint count;
+  uint groups_x;  ///< VkDispatchIndirectCommand
+  uint groups_y;
+  uint groups_z;
 };
 
 /// A clip in the animation texture. Texel 3 * (first_matrix + key * joint_count + joint) + row.
@@ -173,6 +182,7 @@ static_assert(sizeof(GpuCharacter) == 128 && offsetof(GpuCharacter, clip) == 48 
               offsetof(GpuCharacter, idle_weight) == 112);
 static_assert(sizeof(GpuLegs) == 128 && offsetof(GpuLegs, joints) == 96 &&
               offsetof(GpuLegs, first_group) == 120);
+static_assert(sizeof(GpuPoseHead) == 16 && offsetof(GpuPoseHead, groups_x) == 4);
 static_assert(sizeof(GpuClip) == 16 && offsetof(GpuClip, joint_count) == 8);
 static_assert(sizeof(GpuDraw) == 20 && offsetof(GpuDraw, is_covered) == 16);
 static_assert(sizeof(GpuMaterial) == 64 && offsetof(GpuMaterial, tint) == 16 &&

@@ -229,6 +229,7 @@ ContestRow row(Technique technique, std::size_t characters, const std::vector<do
     stats.people_triangles = stats.main.triangles;
     stats.shadow.vertex_invocations = 0;
     stats.gpu_mesh_bytes = 1000;
+    stats.culled_on_device = raster == RasterKind::kPipeline;
     if (raster == RasterKind::kCompute) {
       stats.characters_computed = stats.characters_drawn / 2;
       stats.triangles_computed = 4 * characters;
@@ -354,7 +355,9 @@ TEST(Pages, RasterisersAreComparedWithinATechnique) {
   EXPECT_EQ(pipeline["raster"], "pipeline");
   EXPECT_EQ(pipeline["share_of_people_computed"], 0.0);
   EXPECT_TRUE(pipeline["poses"]["share_kept"].is_null());
+  EXPECT_EQ(pipeline["culling"], "device");
   EXPECT_EQ(compute["raster"], "compute");
+  EXPECT_EQ(compute["culling"], "host");
   EXPECT_DOUBLE_EQ(compute["share_of_people_computed"], 0.5);
   EXPECT_DOUBLE_EQ(compute["share_of_triangles_computed"], 0.4);
   EXPECT_EQ(compute["poses"]["kept"], 90) << "in all rounds";

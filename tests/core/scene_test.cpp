@@ -148,13 +148,14 @@ TEST(SceneErrors, WhatMustBeThere) {
             "input: scenes/a.yaml: 2:11: wardrobe is a list; give a wardrobe folder, or a map of them");
   EXPECT_EQ(errorOf("just text"),
             "input: scenes/a.yaml: 1:1: the file is 'just text'; give a map of the keys version, wardrobe, "
-            "technique, output, raster, debug, poses, environment, crowd, people, camera, light, ground");
+            "technique, output, raster, culling, occlusion, debug, poses, environment, crowd, people, "
+            "camera, light, ground");
 }
 
 TEST(SceneErrors, UnknownKeysNameTheNearest) {
   EXPECT_EQ(errorAfterHead("outptu: {}\n"),
             "3:1: unknown key 'outptu'; write 'output' (known: version, wardrobe, technique, output, "
-            "raster, debug, poses, environment, crowd, people, camera, light, ground)");
+            "raster, culling, occlusion, debug, poses, environment, crowd, people, camera, light, ground)");
   EXPECT_EQ(errorAfterHead("output:\n  widht: 3\n"),
             "4:3: unknown key 'widht' in output; write 'width' (known: width, height, samples, frames, fps, "
             "background)");
@@ -182,6 +183,17 @@ TEST(Scene, RasterisersHaveNames) {
   for (const RasterKind kind : kAllRasterKinds) EXPECT_EQ(parseRasterKind(toString(kind)), kind);
   EXPECT_EQ(parseRasterKind("gpu"), std::nullopt);
   EXPECT_EQ(parse(kHead + "raster: compute\n").raster, RasterKind::kCompute);
+}
+
+TEST(Scene, CullingIsTheHostsOrTheDevices) {
+  EXPECT_FALSE(parse(kHead).occlusion);
+  EXPECT_TRUE(parse(kHead + "occlusion: true\n").occlusion);
+  EXPECT_EQ(parse(kHead).culling, CullingKind::kAuto);
+  EXPECT_EQ(parse(kHead + "culling: auto\n").culling, CullingKind::kAuto);
+  EXPECT_EQ(parse(kHead + "culling: host\n").culling, CullingKind::kHost);
+  EXPECT_EQ(parse(kHead, {{"culling", "device"}}).culling, CullingKind::kDevice);
+  EXPECT_EQ(errorAfterHead("culling: gpu\n"),
+            "3:10: culling is 'gpu'; give 'auto', 'host' or 'device'; the nearest is 'auto'");
 }
 
 TEST(Scene, AnEnvironmentTakesThePlaceOfTheGround) {
@@ -429,7 +441,7 @@ TEST(ReferenceScene, HoldsEveryKeyAndTheDocsDescribeIt) {
           << in_table << " is not in docs/scene.md";
     }
   }
-  EXPECT_EQ(key_count, 13 + 6 + 2 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
+  EXPECT_EQ(key_count, 15 + 6 + 2 + 8 + 15 + 6 + 2 + 10 + 7 + 4 + 2);
 }
 
 TEST(ReferenceScene, ItsAlternativesAreScenesToo) {

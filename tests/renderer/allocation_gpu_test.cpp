@@ -85,5 +85,29 @@ TEST(Allocation, AFrameAllocatesNothing) {
   }
 }
 
+TEST(Allocation, AFrameCulledOnTheDeviceAllocatesNothing) {
+  if (deviceName() == "none") GTEST_SKIP() << "there is no Vulkan device";
+  Scene scene = testing::tubeScene(50);
+  scene.raster = RasterKind::kPipeline;
+  scene.culling = CullingKind::kDevice;
+  const std::vector<Wardrobe> wardrobes = {testing::tubeWardrobe()};
+  Renderer renderer;
+  renderer.load(scene, wardrobes);
+  std::vector<View> views(2, viewOf(scene));
+  views[0].samples = 4;
+  views[1].aovs = testing::allAovs();
+  std::vector<Picture> pictures(views.size());
+  renderer.render(views, 0.0, pictures);
+  EXPECT_TRUE(pictures[1].stats.culled_on_device);
+  allocation_count = 0;
+  is_counting = true;
+  for (int frame = 1; frame < 6; ++frame) {
+    for (View& view : views) view.camera.position.x = 0.8f * static_cast<float>(frame);
+    renderer.render(views, frame / 30.0, pictures);
+  }
+  is_counting = false;
+  EXPECT_EQ(allocation_count, 0u);
+}
+
 }  // namespace
 }  // namespace ensemble

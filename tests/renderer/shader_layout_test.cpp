@@ -7,14 +7,18 @@
 #include <string>
 
 #include "shaders/shared/crowd_types.h"
+#include "shaders/shared/queue_types.h"
 #include "shaders/shared/raster_types.h"
 #include "spirv/aov.frag.h"
 #include "spirv/crowd.frag.h"
 #include "spirv/crowd.vert.h"
+#include "spirv/cull.comp.h"
 #include "spirv/environment.frag.h"
 #include "spirv/environment.vert.h"
 #include "spirv/occlusion_pick.comp.h"
 #include "spirv/pose.comp.h"
+#include "spirv/pose_fill.comp.h"
+#include "spirv/queue_draws.comp.h"
 #include "spirv/raster.comp.h"
 #include "spirv/raster_list.comp.h"
 #include "spirv/shadow_discard.frag.h"
@@ -84,6 +88,36 @@ TEST(ShaderLayout, CharactersAndClips) {
   EXPECT_EQ(clip.at("key_count"), offsetof(GpuClip, key_count));
   EXPECT_EQ(clip.at("joint_count"), offsetof(GpuClip, joint_count));
   EXPECT_EQ(shader.strides.at("GpuClip"), sizeof(GpuClip));
+}
+
+TEST(ShaderLayout, CullingAndQueues) {
+  const Reflection cull(kCullComp), draws(kQueueDrawsComp), poses(kPoseFillComp), pose_pass(kPoseComp);
+  const auto& culling = cull.offsets.at("GpuCulling");
+  EXPECT_EQ(culling.at("picture"), offsetof(GpuCulling, picture));
+  EXPECT_EQ(culling.at("tile"), offsetof(GpuCulling, tile));
+  EXPECT_EQ(culling.at("shadow_x"), offsetof(GpuCulling, shadow_x));
+  EXPECT_EQ(culling.at("shadow_y"), offsetof(GpuCulling, shadow_y));
+  EXPECT_EQ(culling.at("eye"), offsetof(GpuCulling, eye));
+  EXPECT_EQ(culling.at("pixels"), offsetof(GpuCulling, pixels));
+  EXPECT_EQ(culling.at("snap_squared"), offsetof(GpuCulling, snap_squared));
+  EXPECT_EQ(culling.at("shadow_scale"), offsetof(GpuCulling, shadow_scale));
+  EXPECT_EQ(culling.at("has_shadows"), offsetof(GpuCulling, has_shadows));
+  EXPECT_EQ(culling.at("poses_casters"), offsetof(GpuCulling, poses_casters));
+  EXPECT_EQ(cull.strides.at("GpuCharacter"), sizeof(GpuCharacter));
+  EXPECT_EQ(cull.strides.at("GpuClip"), sizeof(GpuClip));
+  const auto& item = draws.offsets.at("GpuQueueItem");
+  EXPECT_EQ(item.at("vertex_offset"), offsetof(GpuQueueItem, vertex_offset));
+  EXPECT_EQ(item.at("first_of_batch"), offsetof(GpuQueueItem, first_of_batch));
+  EXPECT_EQ(item.at("draw"), offsetof(GpuQueueItem, draw));
+  EXPECT_EQ(draws.strides.at("GpuQueueItem"), sizeof(GpuQueueItem));
+  EXPECT_EQ(draws.strides.at("GpuQueueTotal"), sizeof(GpuQueueTotal));
+  EXPECT_EQ(draws.strides.at("GpuQueueCommand"), sizeof(GpuQueueCommand));
+  EXPECT_EQ(draws.strides.at("GpuDraw"), sizeof(GpuDraw));
+  const auto& push = draws.offsets.at("GpuQueuePush");
+  EXPECT_EQ(push.at("queue_count"), offsetof(GpuQueuePush, queue_count));
+  EXPECT_EQ(push.at("verdict"), offsetof(GpuQueuePush, verdict));
+  EXPECT_EQ(poses.strides.at("GpuPoseJob"), sizeof(GpuPoseJob));
+  EXPECT_EQ(pose_pass.offsets.at("GpuPoseHead").at("count"), offsetof(GpuPoseHead, count));
 }
 
 TEST(ShaderLayout, DrawsAndMaterials) {
