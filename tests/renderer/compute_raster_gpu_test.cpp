@@ -126,10 +126,8 @@ TEST_P(BothRasterisers, LeaveOutWhatIsHiddenAndNothingElse) {
       counted.occlusion = false;
       EXPECT_EQ(overdraw.color.rgba, draw(*renderer, counted, seconds).color.rgba) << "those behind as well";
       if (c / 2 == 0) hidden += left.stats.triangles_hidden;
-      EXPECT_EQ(left.color.rgba, all.color.rgba) << c;
-      EXPECT_EQ(left.face, all.face) << c;
-      EXPECT_EQ(left.character, all.character) << c;
-      EXPECT_EQ(left.depth, all.depth) << c;
+      SCOPED_TRACE(c);
+      testing::expectSamePixels(left, all);
     }
   }
   EXPECT_GT(hidden, 10000u);

@@ -31,13 +31,7 @@ class CullingTest : public GpuTest {
     EXPECT_EQ(a.vertex_invocations, b.vertex_invocations);
   }
   static void expectSame(const Picture& a, const Picture& b) {
-    EXPECT_EQ(a.color.rgba, b.color.rgba);
-    EXPECT_EQ(a.linear, b.linear);
-    EXPECT_EQ(a.character, b.character);
-    EXPECT_EQ(a.region, b.region);
-    EXPECT_EQ(a.face, b.face);
-    EXPECT_EQ(a.depth, b.depth);
-    EXPECT_EQ(a.normal, b.normal);
+    testing::expectSamePixels(a, b);
     EXPECT_EQ(a.stats.characters_drawn, b.stats.characters_drawn);
     EXPECT_EQ(a.stats.characters_posed, b.stats.characters_posed);
     EXPECT_EQ(a.stats.people_triangles, b.stats.people_triangles);

@@ -79,6 +79,17 @@ inline std::vector<std::size_t> differingPixels(const Image8& a, const Image8& b
   return pixels;
 }
 
+/// Of all that was asked for, to the last bit.
+inline void expectSamePixels(const Picture& a, const Picture& b) {
+  EXPECT_EQ(a.color.rgba, b.color.rgba);
+  EXPECT_EQ(a.linear, b.linear);
+  EXPECT_EQ(a.character, b.character);
+  EXPECT_EQ(a.region, b.region);
+  EXPECT_EQ(a.face, b.face);
+  EXPECT_EQ(a.depth, b.depth);
+  EXPECT_EQ(a.normal, b.normal);
+}
+
 /// Pixels that show somebody.
 inline std::size_t countPeoplePixels(const Picture& picture) {
   return picture.character.size() -

@@ -26,15 +26,6 @@ class TilesTest : public GpuTest {
     view.aovs = testing::allAovs();
     return view;
   }
-  static void expectEqual(const Picture& a, const Picture& b) {
-    EXPECT_EQ(a.color.rgba, b.color.rgba);
-    EXPECT_EQ(a.linear, b.linear);
-    EXPECT_EQ(a.character, b.character);
-    EXPECT_EQ(a.region, b.region);
-    EXPECT_EQ(a.face, b.face);
-    EXPECT_EQ(a.depth, b.depth);
-    EXPECT_EQ(a.normal, b.normal);
-  }
 };
 
 // Coordinates round differently where a tile begins, so that an edge falls by 1/256 of a pixel to the
@@ -65,14 +56,14 @@ TEST_F(TilesTest, AreTheSameWhateverMemoryThereIs) {
   const Scene scene = crowdedScene();
   View view = fullView(scene);
   const RendererOptions ample{.tiles = kSmallTiles};
-  expectEqual(drawScene(scene, view, 0.0, {.max_buffer_bytes = 6000, .tiles = kSmallTiles}),
-              drawScene(scene, view, 0.0, ample));
+  testing::expectSamePixels(drawScene(scene, view, 0.0, {.max_buffer_bytes = 6000, .tiles = kSmallTiles}),
+                            drawScene(scene, view, 0.0, ample));
   // Drawn at once this view would take some 130 bytes a pixel: 60 MB.
   view.width = 800;
   view.height = 600;
   const TileLimits tiles{.side = 256, .pixels = 256 * 128};
-  expectEqual(drawScene(scene, view, 0.0, {.memory_limit = 32u << 20, .tiles = tiles}),
-              drawScene(scene, view, 0.0, {.tiles = tiles}));
+  testing::expectSamePixels(drawScene(scene, view, 0.0, {.memory_limit = 32u << 20, .tiles = tiles}),
+                            drawScene(scene, view, 0.0, {.tiles = tiles}));
   EXPECT_THROW(drawScene(scene, view, 0.0, {.memory_limit = 32u << 20}), SystemError);
 }
 
@@ -85,7 +76,8 @@ TEST_F(TilesTest, AreMadeByThemselvesOfALargePicture) {
   const Picture wide = drawScene(scene, view);
   EXPECT_GT(testing::countPeoplePixels(wide), 100u);
   EXPECT_EQ(wide.color.rgba.size(), 4u * 4098 * 60);
-  expectEqual(wide, drawScene(scene, view, 0.0, {.tiles = {.side = 2049, .pixels = 2049 * 60}}));
+  testing::expectSamePixels(wide,
+                            drawScene(scene, view, 0.0, {.tiles = {.side = 2049, .pixels = 2049 * 60}}));
 }
 
 TEST_F(TilesTest, HaveTheirDrawsCounted) {
@@ -124,7 +116,7 @@ TEST_F(TilesTest, BeginAfreshForEachView) {
   std::vector<Picture> together(views.size());
   renderer->render(views, 0.3, together);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    expectEqual(together[i], drawScene(scene, views[i], 0.3, {.tiles = kSmallTiles}));
+    testing::expectSamePixels(together[i], drawScene(scene, views[i], 0.3, {.tiles = kSmallTiles}));
   }
 }
 
