@@ -288,9 +288,11 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
 void FrameLoop::buildQueues(const View& view, const Tile& tile) {
   const Frustum frustum = frustumOf(view, tile);
   if (!culls_on_device_) {
-    findVisible(frustum, state_.bounds(), visible_);
-    divide(
-        visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
+    if (tile != wholeOf(view)) {  // else choosePeople() has found them
+      findVisible(frustum, state_.bounds(), visible_);
+      divide(
+          visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
+    }
     main_queues_.build(assets_, state_, near_);
   }
   if (compute_) {
