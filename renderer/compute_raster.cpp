@@ -49,13 +49,6 @@ std::uint32_t firstPickedGroup(const RasterPlan& plan, const PlanBatch& batch) {
   return static_cast<std::uint32_t>(plan.groups().size()) + batch.first_group - plan.firstLateGroup();
 }
 
-void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
-  gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
-                     Stage::eComputeShader | Stage::eDrawIndirect,
-                     Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite |
-                         Access::eIndirectCommandRead);
-}
-
 }  // namespace
 
 /// As raster_sets.glsl has it.
@@ -95,15 +88,9 @@ void ComputeRaster::createPipelines() {
   sampler_ = ENSEMBLE_VK(vk::raii::Sampler(device_.handle(), vk::SamplerCreateInfo{}));  // texelFetch only
   set_layout_ = gpu::makeSetLayout(device_, kBindings, kCompute);
   aov_layout_ = gpu::makeSetLayout(device_, kAovBindings, kCompute);
-  const vk::PushConstantRange push{.stageFlags = kCompute, .offset = 0, .size = sizeof(Push)};
   const auto make_layout = [&](vk::DescriptorSetLayout last) {
-    const std::array<vk::DescriptorSetLayout, 4> layouts = {*layout_.viewLayout(), *set_layout_,
-                                                            *layout_.assetLayout(), last};
-    return ENSEMBLE_VK(vk::raii::PipelineLayout(device_.handle(),
-                                                vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
-                                                                             .pSetLayouts = layouts.data(),
-                                                                             .pushConstantRangeCount = 1,
-                                                                             .pPushConstantRanges = &push}));
+    return gpu::makePipelineLayout(
+        device_, std::array{*layout_.viewLayout(), *set_layout_, *layout_.assetLayout(), last}, sizeof(Push));
   };
   pipeline_layout_ = make_layout(*assets_.textures().layout());
   aov_pipeline_layout_ = make_layout(*aov_layout_);
@@ -384,11 +371,10 @@ void ComputeRaster::recordOcclusion(const vk::raii::CommandBuffer& commands, con
     batches[i].first_group = firstPickedGroup(*work.plan, work.plan->batches()[i]);
   occlusion_.record(commands, target.occlusion,
                     {.plan = *work.plan,
-
                      .triangles_per_group = device_.subgroupSize() * ENSEMBLE_RASTER_RUN,
                      .near_plane = near_plane,
                      .hides = target.pass != Pass::kOverdraw,
-                     .drawn_hides = drawn_hides_});
+                     .drawn_hides = work.drawn_hides});
 }
 
 void ComputeRaster::recordShadowMap(const vk::raii::CommandBuffer& commands, const ViewTargets& targets,
@@ -413,14 +399,14 @@ void ComputeRaster::recordList(const vk::raii::CommandBuffer& commands, vk::Desc
   commands.pushConstants<Push>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sampled(target).list);
   gpu::recordDispatch(commands, listGroups(push.pixel_count));
-  recordComputeBarrier(commands);
+  gpu::recordComputeBarrier(commands);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *count_bins_);
   commands.dispatch(1, 1, 1);
-  recordComputeBarrier(commands);
+  gpu::recordComputeBarrier(commands);
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *sort_);
   commands.dispatchIndirect(target.bins.handle(), std::uint64_t{push.bin_count} * sizeof(GpuRasterBin) +
                                                       offsetof(GpuRasterBin, groups_x));
-  recordComputeBarrier(commands);
+  gpu::recordComputeBarrier(commands);
 }
 
 template <class Bind, class Finish>
@@ -441,7 +427,7 @@ void ComputeRaster::recordBands(const vk::raii::CommandBuffer& commands, vk::Des
       commands.dispatchIndirect(target.bins.handle(),
                                 own.bin * sizeof(GpuRasterBin) + offsetof(GpuRasterBin, groups_x));
     }
-    recordComputeBarrier(commands);
+    gpu::recordComputeBarrier(commands);
     finish(push);
   }
 }

@@ -51,9 +51,10 @@ class ComputeRaster {
     std::unique_ptr<RasterPlan> plan;
     std::vector<PlanPerson> people;  ///< who is between key frames has a key beyond them all, of its own
     std::vector<OwnPerson> own;      ///< those, in this order
+    bool drawn_hides = false;        ///< what the graphics pipeline draws may hide people
     std::uint32_t number = 0;        ///< changes when a buffer is another one
     gpu::Buffer rows, who, entries, work, groups;
-    /// /// Of the second round: per person GpuOccludee; per batch GpuRasterBatch.
+    /// Of the second round: per person GpuOccludee; per batch GpuRasterBatch.
     gpu::Buffer occludees, batches;
     vk::raii::BufferView rows_view = nullptr, who_view = nullptr, occludees_view = nullptr;
   };
@@ -94,7 +95,7 @@ class ComputeRaster {
   bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
   /// What was drawn of the plan; once the device is done with it.
   std::uint64_t triangleCount(Eye eye) const;
-  /// /// What was left out of it; likewise.
+  /// What was left out of it; likewise.
   std::uint64_t hiddenTriangleCount(Eye eye) const;
   /// That rasterise.
   std::uint64_t dispatchCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->batches().size() : 0; }
@@ -168,7 +169,6 @@ class ComputeRaster {
   OcclusionPass occlusion_;
   gpu::Buffer boxes_;  // of CrowdExtents
   vk::raii::BufferView boxes_view_ = nullptr;
-  bool drawn_hides_ = false;
   std::vector<float> distances_, sorted_distances_;  // of the work at hand
   vk::raii::Sampler sampler_ = nullptr;
   vk::raii::DescriptorSetLayout set_layout_ = nullptr, aov_layout_ = nullptr;

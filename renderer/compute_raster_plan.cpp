@@ -28,7 +28,7 @@ void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& stat
     work.people.push_back({state.combinations()[number], key});
   }
   if (work.people.empty()) return;
-  drawn_hides_ = occlusion.drawn_hides;
+  work.drawn_hides = occlusion.drawn_hides;
   if (occlusion.is_on) chooseRounds(work, rows, state, numbers);
   planWork(work, state);
   upload(work, rows, state, numbers);

@@ -17,7 +17,8 @@ struct CrowdExtents {
   /// Per person: the longest edge of any triangle of body and clothes at any key of any clip; metres, scale
   /// included.
   std::vector<float> longest_edges;
-  /// Of each run of triangles of each index list, in each clip of its wardrobe.
+  /// Of each run of triangles of each index list, in each clip of its wardrobe, vertices rounded as poses
+  /// keep them.
   std::vector<GpuRunBox> boxes;
   std::vector<std::vector<std::uint32_t>>
       first_box;  ///< per wardrobe and index list; then by run, then by clip

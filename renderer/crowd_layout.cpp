@@ -24,13 +24,8 @@ CrowdLayout::CrowdLayout(gpu::Device& device, const CrowdAssets& assets)
   // In the order of ENSEMBLE_SET_...
   const std::array<vk::DescriptorSetLayout, 4> layouts = {*view_, *crowd_, *assets_,
                                                           *assets.textures().layout()};
-  const vk::PushConstantRange push{
-      .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(std::uint32_t)};
-  pipeline_layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = layouts.size(),
-                                                                             .pSetLayouts = layouts.data(),
-                                                                             .pushConstantRangeCount = 1,
-                                                                             .pPushConstantRanges = &push}));
+  pipeline_layout_ =
+      gpu::makePipelineLayout(device, layouts, sizeof(std::uint32_t), vk::ShaderStageFlagBits::eVertex);
   asset_sets_ = gpu::DescriptorSets(device, assets_, kAssetBindings,
                                     static_cast<std::uint32_t>(assets.indexChunkCount()));
   for (std::uint32_t i = 0; i < assets.indexChunkCount(); ++i) {

@@ -15,7 +15,6 @@ namespace {
 
 constexpr float kReachForPrints = 1.1f;  // of a figure's radius
 constexpr std::uint64_t kJointBytes = 3 * sizeof(vec4);
-constexpr std::uint32_t kNoPose = 0xffffffffu;
 
 constexpr std::initializer_list<vk::DescriptorType> kPoseBindings = {
     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
@@ -121,8 +120,7 @@ void CrowdState::createPipeline(gpu::Device& device) {
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_LEG_GROUPS, leg_groups_);
     gpu::writeBuffer(device, sets_[i], ENSEMBLE_BINDING_POSE_HEAD, chunks_[i].pose_head);
   }
-  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
-      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout_}));
+  layout_ = gpu::makePipelineLayout(device, std::array{*set_layout_});
   pipeline_ = gpu::makeComputePipeline(device, layout_, kPoseComp);
 }
 

@@ -16,6 +16,9 @@
 
 namespace ensemble {
 
+/// Of somebody whose pose is not in the palette.
+inline constexpr std::uint32_t kNoPose = 0xffffffffu;
+
 /// People who share buffers, so that none grows beyond the limit.
 struct CrowdChunk {
   std::uint32_t first = 0, count = 0;  ///< numbers in the crowd

@@ -17,14 +17,8 @@ constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
 /// In the order of ENSEMBLE_BINDING_CULL_...
 constexpr std::initializer_list<vk::DescriptorType> kBindings = {
     vk::DescriptorType::eUniformBuffer, kStorage, kStorage, kStorage, kStorage, kStorage, kStorage};
-constexpr std::uint32_t kNoPose = 0xffffffffu;
 
 static_assert(sizeof(Sphere) == sizeof(vec4) && offsetof(Sphere, radius) == 12);
-
-void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
-  gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite, Stage::eComputeShader,
-                     Access::eShaderStorageRead | Access::eShaderStorageWrite);
-}
 
 std::vector<gpu::Buffer> makeVerdicts(gpu::Device& device, const CrowdState& state) {
   std::vector<gpu::Buffer> verdicts;
@@ -73,12 +67,7 @@ void DeviceCulling::createPipeline() {
   set_layout_ = gpu::makeSetLayout(device_, kBindings, kCompute);
   sets_ = gpu::DescriptorSets(device_, set_layout_, kBindings,
                               static_cast<std::uint32_t>(state_.chunks().size()));
-  const vk::PushConstantRange push{.stageFlags = kCompute, .offset = 0, .size = sizeof(GpuQueuePush)};
-  layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device_.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                                              .pSetLayouts = &*set_layout_,
-                                                                              .pushConstantRangeCount = 1,
-                                                                              .pPushConstantRanges = &push}));
+  layout_ = gpu::makePipelineLayout(device_, std::array{*set_layout_}, sizeof(GpuQueuePush));
   pipeline_ = gpu::makeComputePipeline(device_, layout_, kCullComp);
 }
 
@@ -163,7 +152,7 @@ void DeviceCulling::record(const vk::raii::CommandBuffer& commands) {
   }
   recordCulling(commands);
   for (const QueueStep step : kAllQueueSteps) {
-    recordComputeBarrier(commands);
+    gpu::recordComputeBarrier(commands);
     main_.scan().recordStep(commands, step);
     if (draws_shadows_) shadow_.scan().recordStep(commands, step);
     poses_.recordStep(commands, step);

@@ -26,12 +26,7 @@ EnvironmentPass::EnvironmentPass(const gpu::Device& device, const CrowdLayout& l
     : device_(device), assets_(assets) {
   // In the order of ENSEMBLE_SET_VIEW, ENSEMBLE_SET_ENVIRONMENT_TEXTURE.
   const std::array<vk::DescriptorSetLayout, 2> sets = {*layout.viewLayout(), *assets.textures().layout()};
-  const vk::PushConstantRange push{.stageFlags = kPushStage, .offset = 0, .size = sizeof(GpuStaticMaterial)};
-  layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = sets.size(),
-                                                                             .pSetLayouts = sets.data(),
-                                                                             .pushConstantRangeCount = 1,
-                                                                             .pPushConstantRanges = &push}));
+  layout_ = gpu::makePipelineLayout(device, sets, sizeof(GpuStaticMaterial), kPushStage);
   for (const EnvironmentItem& item : assets.items()) {
     makeIfMissing(shadow_, shapeVariant(item.state), [&](ShaderVariant variant) {
       return variant.cut_out ? make(kEnvironmentDiscardVert, kEnvironmentDiscardFrag,

@@ -219,10 +219,6 @@ bool FrameLoop::cullsOnDevice(const View& view, const TargetSize& size) const {
   return can_cull_on_device_ && !ViewPeople::mayCompute(view, state_.characterCount(), most);
 }
 
-const DeviceQueues* FrameLoop::deviceQueues(const DeviceQueues& (DeviceCulling::*queues)() const) const {
-  return culls_on_device_ ? &((*culling_).*queues)() : nullptr;
-}
-
 void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size) {
   if (culls_on_device_) {
     for (std::vector<std::uint32_t>* list : {&visible_, &casters_, &near_, &computed_}) list->clear();
@@ -351,7 +347,7 @@ void FrameLoop::record(const View& view, const Slot& slot, bool draws_shadows) {
                        .layout = &layout_,
                        .queues = &main_queues_,
                        .view_set = slot.view_set[0],
-                       .device_queues = deviceQueues(&DeviceCulling::main),
+                       .device_queues = culls_on_device_ ? &culling_->main() : nullptr,
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   const bool computed = computes(ComputeRaster::Eye::kCamera);
   color_pass_.record(commands_, draw, slot.targets, view, counter_, kMain, computed);
@@ -372,7 +368,7 @@ void FrameLoop::recordShadows(const View& view, const Slot& slot) {
                        .layout = &layout_,
                        .queues = &shadow_queues_,
                        .view_set = slot.view_set[0],
-                       .device_queues = deviceQueues(&DeviceCulling::shadow),
+                       .device_queues = culls_on_device_ ? &culling_->shadow() : nullptr,
                        .environment = {environment_pass_.get(), &shadow_environment_, kEnvironmentShadow}};
   std::function<void()> fill;
   if (computes(Eye::kSun)) {
@@ -388,7 +384,7 @@ void FrameLoop::recordAovs(const View& view, const Slot& slot) {
                        .layout = &layout_,
                        .queues = &main_queues_,
                        .view_set = slot.view_set[0],
-                       .device_queues = deviceQueues(&DeviceCulling::main),
+                       .device_queues = culls_on_device_ ? &culling_->main() : nullptr,
                        .environment = {environment_pass_.get(), &main_environment_, kEnvironmentMain}};
   const auto draw_computed = [&] {
     compute_->record(commands_, draw.view_set, slot.computed_aovs, view.camera.near_plane);

@@ -67,8 +67,6 @@ class FrameLoop {
   /// Whether a view's people are culled and queued by shaders: where nobody can be the compute rasteriser's,
   /// and nothing else needs to know of them on the host.
   bool cullsOnDevice(const View& view, const TargetSize& size) const;
-  /// What shaders have queued, if they do. @param queues of DeviceCulling
-  const DeviceQueues* deviceQueues(const DeviceQueues& (DeviceCulling::*queues)() const) const;
   void buildQueues(const View& view, const Tile& tile);
   void buildShadowQueues(const View& view, const ShadowFit& fit);
   /// Queues the palettes of those whom the pipeline draws and of those whom compute skins by them.

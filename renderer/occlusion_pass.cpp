@@ -39,25 +39,13 @@ std::uint32_t texelsOf(const OcclusionPass::Target& target, std::uint32_t level)
   return ((target.width + side - 1) / side) * ((target.height + side - 1) / side);
 }
 
-void recordBarrier(const vk::raii::CommandBuffer& commands) {
-  gpu::recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
-                     Stage::eComputeShader | Stage::eDrawIndirect,
-                     Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite |
-                         Access::eIndirectCommandRead);
-}
-
 }  // namespace
 
 OcclusionPass::OcclusionPass(gpu::Device& device) : device_(device) {
   constexpr auto kCompute = vk::ShaderStageFlagBits::eCompute;
   sampler_ = ENSEMBLE_VK(vk::raii::Sampler(device.handle(), vk::SamplerCreateInfo{}));  // texelFetch only
   set_layout_ = gpu::makeSetLayout(device, kBindings, kCompute);
-  const vk::PushConstantRange push{.stageFlags = kCompute, .offset = 0, .size = sizeof(Push)};
-  layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                                             .pSetLayouts = &*set_layout_,
-                                                                             .pushConstantRangeCount = 1,
-                                                                             .pPushConstantRanges = &push}));
+  layout_ = gpu::makePipelineLayout(device, std::array{*set_layout_}, sizeof(Push));
   struct Constants {
     std::int32_t samples;
     vk::Bool32 drawn;
@@ -120,10 +108,10 @@ void OcclusionPass::record(const vk::raii::CommandBuffer& commands, const Target
             .near_plane = round.near_plane,
             .hides = round.hides ? 1u : 0u};
   const auto dispatch = [&](const vk::raii::Pipeline& pipeline, std::uint32_t invocations) {
-    recordBarrier(commands);
+    gpu::recordComputeBarrier(commands);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
     commands.pushConstants<Push>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-    commands.dispatch((invocations + ENSEMBLE_OCCLUSION_GROUP - 1) / ENSEMBLE_OCCLUSION_GROUP, 1, 1);
+    gpu::recordDispatch(commands, (invocations + ENSEMBLE_OCCLUSION_GROUP - 1) / ENSEMBLE_OCCLUSION_GROUP);
   };
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, target.set[0], nullptr);
   if (round.hides) {
@@ -133,7 +121,7 @@ void OcclusionPass::record(const vk::raii::CommandBuffer& commands, const Target
   }
   dispatch(pick_, push.group_count);
   dispatch(dispatch_, push.batch_count);
-  recordBarrier(commands);
+  gpu::recordComputeBarrier(commands);
 }
 
 }  // namespace ensemble

@@ -126,18 +126,9 @@ void PosePool::createPipelines() {
     gpu::writeTexelBuffer(device_, matrices_sets_[i], ENSEMBLE_BINDING_SKIN_PALETTE, chunks[i].palette_view);
   }
   mix_layout_ = gpu::makeSetLayout(device_, kMixBindings, vk::ShaderStageFlagBits::eCompute);
-  const vk::PushConstantRange push{
-      .stageFlags = vk::ShaderStageFlagBits::eCompute, .offset = 0, .size = sizeof(Push)};
-  const auto make_layout = [&](std::initializer_list<vk::DescriptorSetLayout> layouts) {
-    return ENSEMBLE_VK(vk::raii::PipelineLayout(
-        device_.handle(),
-        vk::PipelineLayoutCreateInfo{.setLayoutCount = static_cast<std::uint32_t>(layouts.size()),
-                                     .pSetLayouts = layouts.begin(),
-                                     .pushConstantRangeCount = 1,
-                                     .pPushConstantRanges = &push}));
-  };
-  layout_ = make_layout({*set_layout_, *matrices_layout_});
-  mix_pipeline_layout_ = make_layout({*set_layout_, *mix_layout_, *mix_layout_});
+  layout_ = gpu::makePipelineLayout(device_, std::array{*set_layout_, *matrices_layout_}, sizeof(Push));
+  mix_pipeline_layout_ =
+      gpu::makePipelineLayout(device_, std::array{*set_layout_, *mix_layout_, *mix_layout_}, sizeof(Push));
   const auto make = [&](vk::Bool32 own_poses) {
     const vk::SpecializationMapEntry entry{ENSEMBLE_CONSTANT_OWN_POSES, 0, sizeof own_poses};
     const vk::SpecializationInfo info{

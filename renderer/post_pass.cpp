@@ -14,8 +14,7 @@ constexpr std::initializer_list<vk::DescriptorType> kBindings = {vk::DescriptorT
 PostPass::PostPass(const gpu::Device& device) {
   sampler_ = ENSEMBLE_VK(vk::raii::Sampler(device.handle(), vk::SamplerCreateInfo{}));  // texelFetch only
   set_layout_ = gpu::makeSetLayout(device, kBindings, vk::ShaderStageFlagBits::eCompute);
-  layout_ = ENSEMBLE_VK(vk::raii::PipelineLayout(
-      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set_layout_}));
+  layout_ = gpu::makePipelineLayout(device, std::array{*set_layout_});
   pipeline_ = gpu::makeComputePipeline(device, layout_, kPostComp);
 }
 

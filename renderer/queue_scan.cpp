@@ -29,12 +29,7 @@ constexpr std::initializer_list<vk::DescriptorType> kBindings = {kStorage, kStor
 QueueKernels::QueueKernels(const gpu::Device& device) {
   constexpr auto kCompute = vk::ShaderStageFlagBits::eCompute;
   set_layout_ = gpu::makeSetLayout(device, kBindings, kCompute);
-  const vk::PushConstantRange push{.stageFlags = kCompute, .offset = 0, .size = sizeof(GpuQueuePush)};
-  layout_ = ENSEMBLE_VK(
-      vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
-                                                                             .pSetLayouts = &*set_layout_,
-                                                                             .pushConstantRangeCount = 1,
-                                                                             .pPushConstantRanges = &push}));
+  layout_ = gpu::makePipelineLayout(device, std::array{*set_layout_}, sizeof(GpuQueuePush));
   const auto make = [&](std::span<const std::uint32_t> spirv) {
     return gpu::makeComputePipeline(device, layout_, spirv);
   };

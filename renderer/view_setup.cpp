@@ -134,12 +134,6 @@ float pixelsPerTangent(const View& view) {
   return 0.5f * static_cast<float>(view.height) / std::tan(0.5f * view.camera.fov_y);
 }
 
-float sizeOnScreen(const View& view, const Vec3& feet, float height) {
-  const Vec3 middle = feet + Vec3(0.0f, 0.5f * height, 0.0f);
-  const float distance = std::max(glm::distance(middle, view.camera.position), view.camera.near_plane);
-  return pixelsPerTangent(view) * height / distance;
-}
-
 bool SmallPeople::hold(const Vec3& feet, float height) const {
   return culling::isSmall(feet, height, eye, pixels, below_squared);
 }

@@ -27,15 +27,12 @@ inline Tile wholeOf(const View& view) { return {0, 0, view.width, view.height}; 
 /// Pixels that a length of one metre, one metre before the camera, has in the picture's middle.
 float pixelsPerTangent(const View& view);
 
-/// A person's height on the screen in pixels, by the distance of its middle. @param feet where it stands
-/// @param height metres
-float sizeOnScreen(const View& view, const Vec3& feet, float height);
-
-/// Who is less than a number of pixels tall on the screen, by that distance: as sizeOnScreen() has it but for
-/// the last bits, and to the last bit as shaders do.
+/// Who is less than View::snap_below pixels tall on the screen, by the distance of its middle: to the last
+/// bit as shaders have it.
 struct SmallPeople {
   Vec4 eye{0.0f};  ///< the camera; w: near plane squared
   float pixels = 0.0f, below_squared = 0.0f;
+  /// @param feet where somebody stands @param height metres
   bool hold(const Vec3& feet, float height) const;
 };
 SmallPeople smallPeopleOf(const View& view);

@@ -8,7 +8,7 @@
 # scene.yaml, crowd.png, reports/.
 #
 #   --full            eight people of all ages and builds (config/people/*.yaml), each with every recipe
-#                     of outfits/; about an hour on two cores, most of it to find what layers hide
+#                     of outfits/; an hour and more on two cores, most of it to find what layers hide
 #   --occlusion KIND  as of `ensemble tag` (default: auto for people made here, whose bodies are complete;
 #                     authored for those in DIR)
 set -euo pipefail

@@ -2,7 +2,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/raster_types.h"
-#include "shaders/group_number.glsl"
 #include "shaders/occlusion_sets.glsl"
 
 layout(local_size_x = ENSEMBLE_OCCLUSION_GROUP) in;
@@ -10,7 +9,7 @@ layout(local_size_x = ENSEMBLE_OCCLUSION_GROUP) in;
 layout(set = 0, binding = ENSEMBLE_BINDING_OCCLUSION_BATCHES, std430) buffer Batches { GpuRasterBatch batches[]; };
 
 void main() {
-  uint number = gl_GlobalInvocationID.x;
+  uint number = invocationNumber();
   if (number >= batch_count) return;
   uvec2 rows = groupRows(batches[number].group_count);
   batches[number].groups_x = rows.x;

@@ -68,8 +68,9 @@ bool isHidden(int person, uvec4 clips, uint first_box) {
 }
 
 void main() {
-  if (gl_GlobalInvocationID.x >= group_count) return;
-  GpuRasterGroup group = groups[first_group + gl_GlobalInvocationID.x];
+  uint number = invocationNumber();
+  if (number >= group_count) return;
+  GpuRasterGroup group = groups[first_group + number];
   GpuRasterWork work = all_work[group.work];
   uint run = group.first_triangle / triangles_per_group;
   uint first = work.first_picked + run * group.entry_count, left = 0u;
@@ -83,6 +84,6 @@ void main() {
   if (left == 0u) return;
   uint triangle_count = min(work.triangle_count - group.first_triangle, triangles_per_group);
   atomicAdd(batches[work.batch].triangle_count, left * triangle_count);
-  uint number = batches[work.batch].first_group + atomicAdd(batches[work.batch].group_count, 1u);
-  groups[number] = GpuRasterGroup(group.work, group.first_triangle, first, left);
+  uint picked = batches[work.batch].first_group + atomicAdd(batches[work.batch].group_count, 1u);
+  groups[picked] = GpuRasterGroup(group.work, group.first_triangle, first, left);
 }

@@ -8,7 +8,7 @@ layout(local_size_x = ENSEMBLE_OCCLUSION_GROUP) in;
 
 void main() {
   uvec2 size = levelSize(level), from = levelSize(level - 1u);
-  uint texel = gl_GlobalInvocationID.x;
+  uint texel = invocationNumber();
   if (texel >= size.x * size.y) return;
   uvec2 low = 2u * uvec2(texel % size.x, texel / size.x), high = min(low + 1u, from - 1u);
   uint first = levelFirst(level - 1u);

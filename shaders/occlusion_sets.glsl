@@ -1,4 +1,6 @@
 // What the passes share that find out what the first round hides. Included after raster_types.h.
+#include "shaders/group_number.glsl"
+
 layout(set = 0, binding = ENSEMBLE_BINDING_OCCLUSION_PYRAMID, std430) buffer Pyramid {
   float pyramid[];  // the least depth of a texel's pixels, level after level; 0: the background shows
 };
@@ -15,6 +17,9 @@ layout(push_constant) uniform Push {
   float near_plane;
   uint hides;  // 0: everything is drawn
 };
+
+// Of as many groups of ENSEMBLE_OCCLUSION_GROUP as it takes.
+uint invocationNumber() { return groupNumber() * ENSEMBLE_OCCLUSION_GROUP + gl_LocalInvocationID.x; }
 
 uvec2 levelSize(uint number) {
   uint side = ENSEMBLE_PYRAMID_TILE << number;

@@ -8,7 +8,7 @@ layout(constant_id = ENSEMBLE_CONSTANT_DRAWN) const bool kDrawn = false;
 // Once there is background, a tile is done.
 void main() {
   uvec2 size = levelSize(0u);
-  uint tile = gl_GlobalInvocationID.x;
+  uint tile = invocationNumber();
   uvec2 low = ENSEMBLE_PYRAMID_TILE * uvec2(tile % size.x, tile / size.x);
   uvec2 high = min(low + ENSEMBLE_PYRAMID_TILE, uvec2(width, height));
   uvec2 at = low;

@@ -75,6 +75,17 @@ void writeImage(const Device& device, vk::DescriptorSet set, std::uint32_t bindi
       nullptr);
 }
 
+vk::raii::PipelineLayout makePipelineLayout(const Device& device,
+                                            std::span<const vk::DescriptorSetLayout> sets,
+                                            std::uint32_t push_bytes, vk::ShaderStageFlags stages) {
+  const vk::PushConstantRange push{.stageFlags = stages, .offset = 0, .size = push_bytes};
+  return ENSEMBLE_VK(vk::raii::PipelineLayout(
+      device.handle(), vk::PipelineLayoutCreateInfo{.setLayoutCount = static_cast<std::uint32_t>(sets.size()),
+                                                    .pSetLayouts = sets.data(),
+                                                    .pushConstantRangeCount = push_bytes > 0 ? 1u : 0u,
+                                                    .pPushConstantRanges = &push}));
+}
+
 vk::raii::ShaderModule makeShader(const Device& device, std::span<const std::uint32_t> spirv) {
   return ENSEMBLE_VK(vk::raii::ShaderModule(
       device.handle(), vk::ShaderModuleCreateInfo{.codeSize = spirv.size_bytes(), .pCode = spirv.data()}));

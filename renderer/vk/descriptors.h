@@ -15,6 +15,12 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device,
                                             std::initializer_list<vk::DescriptorType> types,
                                             vk::ShaderStageFlags stages);
 
+/// @param push_bytes of push constants, for these stages; 0: none
+vk::raii::PipelineLayout makePipelineLayout(const Device& device,
+                                            std::span<const vk::DescriptorSetLayout> sets,
+                                            std::uint32_t push_bytes = 0,
+                                            vk::ShaderStageFlags stages = vk::ShaderStageFlagBits::eCompute);
+
 /// `count` sets of one layout, with the pool that they live in.
 class DescriptorSets {
  public:

@@ -165,4 +165,13 @@ void recordBarrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFla
   commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &memory});
 }
 
+void recordComputeBarrier(const vk::raii::CommandBuffer& commands) {
+  using Stage = vk::PipelineStageFlagBits2;
+  using Access = vk::AccessFlagBits2;
+  recordBarrier(commands, Stage::eComputeShader, Access::eShaderStorageWrite,
+                Stage::eComputeShader | Stage::eDrawIndirect,
+                Access::eShaderStorageRead | Access::eShaderSampledRead | Access::eShaderStorageWrite |
+                    Access::eIndirectCommandRead);
+}
+
 }  // namespace ensemble::gpu

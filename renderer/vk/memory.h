@@ -128,4 +128,7 @@ void recordBarrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFla
                    vk::AccessFlags2 from_access, vk::PipelineStageFlags2 to_stage,
                    vk::AccessFlags2 to_access);
 
+/// What compute shaders wrote, for others and for indirect dispatches.
+void recordComputeBarrier(const vk::raii::CommandBuffer& commands);
+
 }  // namespace ensemble::gpu

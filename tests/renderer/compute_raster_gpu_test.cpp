@@ -2,6 +2,7 @@
 #include "core/input_error.h"
 #include "tests/renderer/gpu_fixture.h"
 #include "tests/support/picture_difference.h"
+#include "tests/support/small_sets.h"
 
 namespace ensemble {
 namespace {
@@ -131,6 +132,29 @@ TEST_P(BothRasterisers, LeaveOutWhatIsHiddenAndNothingElse) {
     }
   }
   EXPECT_GT(hidden, 10000u);
+}
+
+// Behind a wall that the pipeline draws, and nobody who stands close before it.
+TEST_P(BothRasterisers, LeaveOutWhomAWallHides) {
+  Scene scene = crowdScene(RasterKind::kCompute, 200);
+  scene.camera = {.position = Vec3(0.4f, 1.2f, 14.0f), .target = Vec3(0.0f, 0.9f, 0.0f)};
+  scene.output.samples = GetParam();
+  scene.environment.value = "memory";
+  for (const auto& [z, low_x] : {std::pair{10.0f, 0.0f}, std::pair{0.0f, -30.0f}}) {
+    SCOPED_TRACE(z);
+    const EnvironmentMesh wall =
+        buildEnvironmentMesh(testing::setOf({testing::wallAt(z, low_x, 30.0f, 20.0f)}), "wall.glb");
+    Renderer renderer({.validate = testing::hasValidationLayer()});
+    renderer.load(scene, wardrobes_, &wall);
+    View view = viewWithAovs(scene);
+    view.occlusion = false;
+    const Picture all = draw(renderer, view, 0.37);
+    view.occlusion = true;
+    const Picture left = draw(renderer, view, 0.37);
+    EXPECT_GT(left.stats.triangles_hidden, all.stats.triangles_computed / 4);
+    EXPECT_GT(testing::countPeoplePixels(all), 500u);
+    testing::expectSamePixels(left, all);
+  }
 }
 
 // Each mesh in a buffer of its own, so that all that is sorted by buffers is.

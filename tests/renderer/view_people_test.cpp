@@ -100,8 +100,11 @@ TEST(RasterPeople, WhoFitsTheCameraHasSmallTriangles) {
 TEST(RasterPeople, ASizeOnTheScreenIsThatOfAMeasureThere) {
   View view = smallView();
   view.camera = {.position = Vec3(0.0f), .target = Vec3(0.0f, 0.0f, -1.0f), .fov_y = radians(90.0f)};
-  EXPECT_NEAR(sizeOnScreen(view, Vec3(0.0f, -1.0f, -10.0f), 2.0f), 36.0f, 1e-3f)
-      << "20 metres fill 360 pixels";
+  // 20 metres fill 360 pixels.
+  view.snap_below = 36.01f;
+  EXPECT_TRUE(smallPeopleOf(view).hold(Vec3(0.0f, -1.0f, -10.0f), 2.0f));
+  view.snap_below = 35.99f;
+  EXPECT_FALSE(smallPeopleOf(view).hold(Vec3(0.0f, -1.0f, -10.0f), 2.0f));
 }
 
 TEST(KeyFrames, TheNearestKeyOfTheClipThatWeighsMore) {
@@ -241,8 +244,9 @@ TEST_F(ViewPeopleTest, SmallPeopleSnapAndOthersAreComputedToo) {
   const Row row(200);
   EXPECT_GT(computed(view, row), 190u);
   std::size_t exact = 0;
+  const SmallPeople small = smallPeopleOf(view);
   for (const std::uint32_t p : row.all) {
-    const bool is_small = sizeOnScreen(view, row.bounds[p].center - Vec3(0.0f, 1.0f, 0.0f), 1.7f) < 40.0f;
+    const bool is_small = small.hold(row.bounds[p].center - Vec3(0.0f, 1.0f, 0.0f), 1.7f);
     EXPECT_EQ(shown_.key(p) != ViewPeople::kExact, is_small) << p;
     exact += !is_small && shown_.isComputed(p);
   }
