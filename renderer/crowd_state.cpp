@@ -42,6 +42,7 @@ CrowdState::CrowdState(gpu::Device& device, const Crowd& crowd, const Animation&
   leg_groups_ = upload(std::span(animation.leg_groups), "the parts of legs");
   createPipeline(device);
   setTime(0.0);
+  uploadCharacters();  // what never changes
 }
 
 void CrowdState::makeCharacters(const Animation& animation) {
@@ -156,11 +157,21 @@ void CrowdState::setTime(double seconds) {
     }
   }
   forgetPoses();
-  for (CrowdChunk& chunk : chunks_) {
+  is_uploaded_ = false;
+  for (CrowdChunk& chunk : chunks_) chunk.pose_queue_length = 0;
+}
+
+void CrowdState::uploadCharacters() {
+  for (const CrowdChunk& chunk : chunks_) {
     std::copy_n(characters_.begin() + chunk.first, chunk.count,
                 chunk.characters.mapped<GpuCharacter>().begin());
-    chunk.pose_queue_length = 0;
   }
+  is_uploaded_ = true;
+}
+
+bool CrowdState::letDeviceQueue() {
+  if (!is_uploaded_) uploadCharacters();
+  return !std::exchange(device_queues_, true);
 }
 
 void CrowdState::forgetPoses() {
@@ -177,7 +188,9 @@ std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people, cons
     if (pose_of_[person] == wanted) continue;
     pose_of_[person] = wanted;
     CrowdChunk& chunk = chunks_[chunk_of_[person]];
-    chunk.pose_queue.mapped<GpuPoseJob>()[chunk.pose_queue_length++] = {person - chunk.first, wanted};
+    const std::uint32_t number = person - chunk.first;
+    chunk.pose_queue.mapped<GpuPoseJob>()[chunk.pose_queue_length++] = {number, wanted};
+    if (!is_uploaded_) chunk.characters.mapped<GpuCharacter>()[number] = characters_[person];
     ++queued;
   }
   return queued;

@@ -52,15 +52,15 @@ class CrowdState {
   const gpu::Image& animationTexture() const { return texture_; }
   const gpu::Buffer& clips() const { return clips_; }  ///< GpuClip
 
-  /// Brings phases to a time, at which nobody has a pose yet. The device must not be reading the
-  /// characters.
+  /// Brings phases to a time, at which nobody has a pose yet.
   void setTime(double seconds);
   /// Queues those of `people` (numbers in the crowd) who don't have their poses yet, and says how many they
-  /// were. The device must be done with the pose pass before. @param shown who is at a key frame
+  /// were; the device gets to know their phases and places. It must be done with the pose pass before. @param shown who is at a key frame
   std::uint32_t queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown);
-  /// From now on shaders fill the queues, until setTime() or queuePoses().
+  /// From now on shaders fill the queues, until setTime() or queuePoses(). The device must be done with the
+  /// pose pass before.
   /// @return whether they did not since then: nobody has a pose yet that they would know of
-  bool letDeviceQueue() { return !std::exchange(device_queues_, true); }
+  bool letDeviceQueue();
   /// Records the pose pass: fills the palettes of those queued, readable by vertex and compute shaders
   /// afterwards, and empties the queues of the host.
   void recordPoses(const vk::raii::CommandBuffer& commands);
@@ -73,6 +73,8 @@ class CrowdState {
   void makeChunks(gpu::Device& device, const Animation& animation, std::uint64_t max_buffer_bytes);
   void createPipeline(gpu::Device& device);
   void forgetPoses();
+  /// Tells the device of everybody.
+  void uploadCharacters();
 
   const Crowd& crowd_;
   std::vector<std::uint32_t> first_clip_;  // per wardrobe
@@ -84,6 +86,7 @@ class CrowdState {
   std::vector<float> heights_;
   std::vector<std::uint32_t> pose_of_;  // per person, at this time: GpuPoseJob::key_matrix, or kNoPose
   bool device_queues_ = false;
+  bool is_uploaded_ = false;  // all of characters_ is on the device as it is
   std::vector<CrowdChunk> chunks_;
   std::vector<std::uint32_t> chunk_of_;  // per person
 

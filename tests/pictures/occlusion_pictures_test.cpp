@@ -52,13 +52,20 @@ class OcclusionPictures : public ::testing::TestWithParam<std::string> {
     wardrobe.push_back(loadWardrobe(folder_ / kind));
   }
 
-  std::vector<Picture> draw(std::vector<Wardrobe>& wardrobe, const std::string& outfit,
-                            const std::string& clip, Technique technique, double seconds) {
-    const Scene scene = testing::sceneOfOne(outfit, clip, technique, kSize);
-    renderer_.load(scene, wardrobe);
-    const std::vector<View> sides = testing::viewsFromAllSides(scene);
-    std::vector<Picture> pictures(sides.size());
-    renderer_.render(sides, seconds, pictures);
+  void load(const std::string& outfit, const std::string& clip) {
+    const auto load_one = [&](Renderer& renderer, Technique technique, std::vector<Wardrobe>& wardrobe) {
+      const Scene scene = testing::sceneOfOne(outfit, clip, technique, kSize);
+      renderer.load(scene, wardrobe);
+      sides_ = testing::viewsFromAllSides(scene);
+    };
+    load_one(naive_, Technique::kNaive, automatic_);
+    load_one(ours_, Technique::kTagged, automatic_);
+    load_one(theirs_, Technique::kTagged, by_hand_);
+  }
+
+  std::vector<Picture> draw(Renderer& renderer, double seconds) const {
+    std::vector<Picture> pictures(sides_.size());
+    renderer.render(sides_, seconds, pictures);
     return pictures;
   }
 
@@ -73,12 +80,11 @@ class OcclusionPictures : public ::testing::TestWithParam<std::string> {
            picture.depth[pixel] - naive.depth[pixel] > HiddenFaceOptions().tolerance;
   }
 
-  Tally compare(ItemId outfit, const std::string& clip, double seconds) {
+  /// @pre load() of the outfit
+  Tally compare(ItemId outfit, double seconds) {
     const Item &found = automatic_[0].items[outfit], &authored = by_hand_[0].items[outfit];
     EXPECT_EQ(found.name, authored.name);
-    const auto naive = draw(automatic_, found.name, clip, Technique::kNaive, seconds),
-               ours = draw(automatic_, found.name, clip, Technique::kTagged, seconds),
-               theirs = draw(by_hand_, found.name, clip, Technique::kTagged, seconds);
+    const auto naive = draw(naive_, seconds), ours = draw(ours_, seconds), theirs = draw(theirs_, seconds);
     Tally tally;
     for (std::size_t v = 0; v < naive.size(); ++v) {
       for (std::size_t p = 0; p < naive[v].character.size(); ++p) {
@@ -94,7 +100,8 @@ class OcclusionPictures : public ::testing::TestWithParam<std::string> {
 
   testing::TemporaryFolder folder_;
   std::vector<Wardrobe> automatic_, by_hand_;
-  Renderer renderer_;
+  std::vector<View> sides_;
+  Renderer naive_, ours_, theirs_;
 };
 
 TEST_P(OcclusionPictures, AreThoseOfTheMakersWithFewerHoles) {
@@ -105,9 +112,9 @@ TEST_P(OcclusionPictures, AreThoseOfTheMakersWithFewerHoles) {
     Tally outfit;
     for (const Clip& clip : body.clips) {
       const int steps = testing::isFull() ? static_cast<int>(clip.key_count - 1) / 4 : 3;
-      for (int step = 0; step < steps; ++step) {  // between key frames, too
-        outfit.add(compare(ItemId(i), clip.name, double{clip.seconds} * (step + 0.3) / steps));
-      }
+      load(automatic_[0].items[ItemId(i)].name, clip.name);
+      for (int step = 0; step < steps; ++step)  // between key frames, too
+        outfit.add(compare(ItemId(i), double{clip.seconds} * (step + 0.3) / steps));
     }
     std::printf("%s %-22s differs in %.2f %%, holes %.3f %%, by hand %.3f %%\n", GetParam().c_str(),
                 automatic_[0].items[ItemId(i)].name.c_str(), 100.0 * outfit.share(),
