@@ -186,14 +186,6 @@ void ComputeRaster::refuseTooManyBins() const {
        .mend = "use fewer people, or set raster to pipeline"});
 }
 
-bool ComputeRaster::fits(const TargetSize& size) const {
-  const std::uint64_t samples = std::uint64_t{size.width} * size.height * size.samples;
-  const std::uint64_t texels = std::uint64_t{size.shadow_size} * size.shadow_size;
-  return std::max(samples * kVisibleBytes, texels * sizeof(float)) <=
-             device_.limits().maxStorageBufferRange &&
-         samples <= device_.limits().maxTexelBufferElements;
-}
-
 ComputeRaster::Target ComputeRaster::makeTarget(Pass pass, const ViewTargets& targets) {
   using Usage = vk::BufferUsageFlagBits;
   Target target;

@@ -28,6 +28,7 @@ namespace ensemble {
 
 struct ComputeRasterOptions {
   std::uint64_t pose_cache_bytes = 0;
+  std::uint64_t work_bytes = 0;  ///< of a buffer of an eye's work, at most
   std::uint64_t max_buffer_bytes = 0;
 };
 
@@ -90,8 +91,11 @@ class ComputeRaster {
   void beginFrame() { poses_.beginFrame(); }
   /// Plans an eye's work. @param numbers of people in the crowd, ascending; who is between key frames has its
   /// palette queued
-  void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
-            std::span<const std::uint32_t> numbers, const Occlusion& occlusion);
+  /// @return whether the work fits the device's buffers; if not, none is planned
+  [[nodiscard]] bool plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+                          std::span<const std::uint32_t> numbers, const Occlusion& occlusion);
+  /// @throws SystemError always: what to do where work doesn't fit
+  [[noreturn]] void refuseWork() const;
   bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
   /// What was drawn of the plan; once the device is done with it.
   std::uint64_t triangleCount(Eye eye) const;
@@ -101,8 +105,6 @@ class ComputeRaster {
   std::uint64_t dispatchCount(Eye eye) const { return hasWork(eye) ? workOf(eye).plan->batches().size() : 0; }
   const PosePool& poses() const { return poses_; }
 
-  /// Whether a picture of a size can be drawn with the device's buffers.
-  bool fits(const TargetSize& size) const;
   Target makeTarget(Pass pass, const ViewTargets& targets);
   /// Makes sets right for the work that was planned. @pre the device is idle
   void prepare(const ViewTargets& targets, Target& target);
@@ -135,6 +137,8 @@ class ComputeRaster {
   /// Who is far away is left to the second round.
   void chooseRounds(Work& work, const ScreenRows& rows, const CrowdState& state,
                     std::span<const std::uint32_t> numbers);
+  /// Of the largest buffer that the work needs.
+  std::uint64_t workBytes(const Work& work) const;
   /// Makes room for as many bytes; true if the buffer is another one now.
   bool grow(Work& work, gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage);
   void upload(Work& work, const ScreenRows& rows, const CrowdState& state,

@@ -13,7 +13,7 @@ using Usage = vk::BufferUsageFlagBits;
 
 }  // namespace
 
-void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+bool ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
                          std::span<const std::uint32_t> numbers, const Occlusion& occlusion) {
   Work& work = workOf(eye);
   work.people.clear();
@@ -27,12 +27,36 @@ void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& stat
     }
     work.people.push_back({state.combinations()[number], key});
   }
-  if (work.people.empty()) return;
+  if (work.people.empty()) return true;
   work.drawn_hides = occlusion.drawn_hides;
   if (occlusion.is_on) chooseRounds(work, rows, state, numbers);
   planWork(work, state);
+  if (workBytes(work) > options_.work_bytes) {
+    work.people.clear();
+    poses_.prepare();  // for what was required by now
+    return false;
+  }
   upload(work, rows, state, numbers);
   uploadOccludees(work, rows, state, shown, numbers);
+  return true;
+}
+
+std::uint64_t ComputeRaster::workBytes(const Work& work) const {
+  const RasterPlan& plan = *work.plan;
+  return std::max({(plan.entries().size() + plan.pickedCount()) * sizeof(std::uint32_t),
+                   plan.work().size() * sizeof(GpuRasterWork),
+                   (2 * plan.groups().size() - plan.firstLateGroup()) * sizeof(GpuRasterGroup),
+                   work.people.size() * std::max({sizeof(GpuRasterPerson), sizeof(GpuRasterWho),
+                                                  plan.hasSecondRound() ? sizeof(GpuOccludee) : 0})});
+}
+
+void ComputeRaster::refuseWork() const {
+  throw SystemError({.file = {},
+                     .where = "Vulkan device " + device_.name(),
+                     .what = fmt::format("the work of the compute rasteriser needs more than the {} that one "
+                                         "buffer holds",
+                                         gpu::describeBytes(options_.work_bytes)),
+                     .mend = "use fewer people, or set raster to auto"});
 }
 
 void ComputeRaster::chooseRounds(Work& work, const ScreenRows& rows, const CrowdState& state,
@@ -60,17 +84,9 @@ void ComputeRaster::planWork(Work& work, const CrowdState& state) {
 
 bool ComputeRaster::grow(Work& work, gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {
   if (buffer && bytes <= buffer.size()) return false;
-  const std::uint64_t most = device_.limits().maxStorageBufferRange;
-  if (bytes > most) {
-    throw SystemError({.file = {},
-                       .where = "Vulkan device " + device_.name(),
-                       .what = fmt::format("the work of the compute rasteriser needs {}, one buffer holds {}",
-                                           gpu::describeBytes(bytes), gpu::describeBytes(most)),
-                       .mend = "use fewer people, or set raster to pipeline"});
-  }
   ++work.number;
-  buffer = gpu::Buffer(device_, std::min(bytes + bytes / 2, most), usage, gpu::Buffer::Kind::kUpload,
-                       "the work of the rasteriser");
+  buffer = gpu::Buffer(device_, std::min(bytes + bytes / 2, options_.work_bytes), usage,
+                       gpu::Buffer::Kind::kUpload, "the work of the rasteriser");
   return true;
 }
 

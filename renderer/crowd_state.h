@@ -55,7 +55,8 @@ class CrowdState {
   /// Brings phases to a time, at which nobody has a pose yet.
   void setTime(double seconds);
   /// Queues those of `people` (numbers in the crowd) who don't have their poses yet, and says how many they
-  /// were; the device gets to know their phases and places. It must be done with the pose pass before. @param shown who is at a key frame
+  /// were; the device gets to know their phases and places. It must be done with the pose pass before. @param
+  /// shown who is at a key frame
   std::uint32_t queuePoses(std::span<const std::uint32_t> people, const ViewPeople& shown);
   /// From now on shaders fill the queues, until setTime() or queuePoses(). The device must be done with the
   /// pose pass before.

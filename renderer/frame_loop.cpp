@@ -87,6 +87,7 @@ FrameLoop::FrameLoop(gpu::Device& device, const CrowdAssets& assets, CrowdState&
     compute_ =
         std::make_unique<ComputeRaster>(device, layout_, assets, state, extents_,
                                         ComputeRasterOptions{.pose_cache_bytes = limits.pose_cache_bytes,
+                                                             .work_bytes = limits.raster_work_bytes,
                                                              .max_buffer_bytes = limits.max_buffer_bytes});
   }
   can_cull_on_device_ = DeviceCulling::isPossible(device, assets, state, limits.max_buffer_bytes);
@@ -150,18 +151,18 @@ void FrameLoop::drawDebugged(const View& view, Clock::time_point start, Picture&
 void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& picture) {
   refuseBeyondViewport(device_, view);
   const ShadowFit fit = fitShadowMap(view, state_.bounds(), environment_ ? environment_->bounds() : Box());
-  const TileGrid grid(view.width, view.height, limits_.tiles);
+  const TileGrid grid(view.width, view.height, limits_.tiles, view.samples);
   Slot& slot = slotFor(view, grid, fit.size);
-  if (view.raster == RasterKind::kCompute) requireCompute(slot.targets.size);
+  if (view.raster == RasterKind::kCompute) requireCompute();
   FrameStats stats;
   stats.gpu_mesh_bytes = assets_.meshBytes();
   stats.environment_bytes = environment_ ? environment_->meshBytes() : 0;
   if (compute_) compute_->beginFrame();
-  culls_on_device_ = cullsOnDevice(view, slot.targets.size);
+  culls_on_device_ = cullsOnDevice(view);
   if (culls_on_device_ && !culling_)
     culling_ = std::make_unique<DeviceCulling>(device_, layout_, assets_, state_);
   stats.culled_on_device = culls_on_device_;
-  choosePeople(view, fit, slot.targets.size);
+  choosePeople(view, fit);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
   stats.characters_computed = static_cast<std::uint32_t>(computed_.size());
   buildShadowQueues(view, fit);
@@ -171,7 +172,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     const bool is_first = i == 0;
     if (!is_first) start = Clock::now();
     slot.targets.tile = grid[i];
-    buildQueues(view, slot.targets.tile);
+    buildQueues(view, slot.targets.tile, stats);
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
     if (culls_on_device_) {
       culling_->aim(view, slot.targets.tile, fit, is_first);
@@ -199,27 +200,22 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
   picture.stats = stats;
 }
 
-void FrameLoop::requireCompute(const TargetSize& size) const {
-  if (mayCompute(size)) return;
-  throw SystemError(
-      {.file = {},
-       .where = "Vulkan device " + device_.name(),
-       .what = compute_ ? fmt::format("pictures of {} x {} pixels of {} samples don't fit the buffers of the "
-                                      "compute rasteriser",
-                                      size.width, size.height, size.samples)
-                        : "it can't rasterise in compute shaders: it has no 64-bit atomics in buffers, or "
-                          "no shuffles or ballots in subgroups",
-       .mend = "set raster to auto"});
+void FrameLoop::requireCompute() const {
+  if (compute_) return;
+  throw SystemError({.file = {},
+                     .where = "Vulkan device " + device_.name(),
+                     .what = "it can't rasterise in compute shaders: it has no 64-bit atomics in buffers, or "
+                             "no shuffles or ballots in subgroups",
+                     .mend = "set raster to auto"});
 }
 
-bool FrameLoop::cullsOnDevice(const View& view, const TargetSize& size) const {
+bool FrameLoop::cullsOnDevice(const View& view) const {
   if (view.culling == CullingKind::kHost || view.coverage || view.debug != DebugKind::kNone) return false;
   if (view.culling == CullingKind::kAuto && device_.isCpu()) return false;  // the cores are the same
-  const std::size_t most = mayCompute(size) ? compute_->mostPeople() : 0;
-  return can_cull_on_device_ && !ViewPeople::mayCompute(view, state_.characterCount(), most);
+  return can_cull_on_device_ && !ViewPeople::mayCompute(view, state_.characterCount(), mostComputed());
 }
 
-void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size) {
+void FrameLoop::choosePeople(const View& view, const ShadowFit& fit) {
   if (culls_on_device_) {
     for (std::vector<std::uint32_t>* list : {&visible_, &casters_, &near_, &computed_}) list->clear();
     return;
@@ -234,8 +230,7 @@ void FrameLoop::choosePeople(const View& view, const ShadowFit& fit, const Targe
                             .bounds = state_.bounds(),
                             .heights = state_.heights(),
                             .longest_edges = extents_.longest_edges};
-  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_,
-                mayCompute(size) ? compute_->mostPeople() : 0);
+  shown_.choose(view, fit, state_.keyFrames(), people, visible_, casters_, mostComputed());
   const auto is_computed = [&](std::uint32_t person) { return shown_.isComputed(person); };
   divide(visible_, is_computed, computed_, near_);
 }
@@ -281,7 +276,7 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   return **found;
 }
 
-void FrameLoop::buildQueues(const View& view, const Tile& tile) {
+void FrameLoop::buildQueues(const View& view, const Tile& tile, FrameStats& stats) {
   const Frustum frustum = frustumOf(view, tile);
   if (!culls_on_device_) {
     if (tile != wholeOf(view)) {  // else choosePeople() has found them
@@ -289,22 +284,35 @@ void FrameLoop::buildQueues(const View& view, const Tile& tile) {
       divide(
           visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
     }
-    main_queues_.build(assets_, state_, near_);
   }
-  if (compute_) {
-    compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_,
-                   {.is_on = view.occlusion, .drawn_hides = environment_pass_ || !near_.empty()});
+  if (compute_ &&
+      !compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_,
+                      {.is_on = view.occlusion, .drawn_hides = environment_pass_ || !near_.empty()})) {
+    leaveToPipeline(view, visible_, computed_, near_);
+    shown_.computeNobody();
+    stats.characters_computed = 0;
   }
+  if (!culls_on_device_) main_queues_.build(assets_, state_, near_);
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return frustum.touches(box); }, main_environment_);
+}
+
+void FrameLoop::leaveToPipeline(const View& view, const std::vector<std::uint32_t>& people,
+                                std::vector<std::uint32_t>& computed,
+                                std::vector<std::uint32_t>& others) const {
+  if (view.raster != RasterKind::kAuto) compute_->refuseWork();
+  computed.clear();
+  others = people;
 }
 
 void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
   divide(
       casters_, [&](std::uint32_t person) { return shown_.castsComputed(person); }, computed_casters_,
       near_casters_);
+  if (compute_ &&
+      !compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_, {}))
+    leaveToPipeline(view, casters_, computed_casters_, near_casters_);
   if (!culls_on_device_) shadow_queues_.build(assets_, state_, near_casters_);
-  if (compute_) compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_, {});
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },
                           shadow_environment_);

@@ -29,6 +29,7 @@ namespace ensemble {
 struct FrameLimits {
   std::uint64_t max_buffer_bytes = 0;
   std::uint64_t pose_cache_bytes = 0;
+  std::uint64_t raster_work_bytes = 0;
   TileLimits tiles = {};
 };
 
@@ -60,14 +61,18 @@ class FrameLoop {
   /// The same with what View::debug lays over the picture, for which AOVs may be drawn besides.
   void drawDebugged(const View& view, std::chrono::steady_clock::time_point start, Picture& picture);
   /// Finds who is in sight and who casts shadows, and decides how they are drawn.
-  void choosePeople(const View& view, const ShadowFit& fit, const TargetSize& size);
+  void choosePeople(const View& view, const ShadowFit& fit);
   /// @throws SystemError if a view asks for the compute rasteriser and can't have it
-  void requireCompute(const TargetSize& size) const;
-  bool mayCompute(const TargetSize& size) const { return compute_ && compute_->fits(size); }
+  void requireCompute() const;
+  std::size_t mostComputed() const { return compute_ ? compute_->mostPeople() : 0; }
   /// Whether a view's people are culled and queued by shaders: where nobody can be the compute rasteriser's,
   /// and nothing else needs to know of them on the host.
-  bool cullsOnDevice(const View& view, const TargetSize& size) const;
-  void buildQueues(const View& view, const Tile& tile);
+  bool cullsOnDevice(const View& view) const;
+  /// Queues and plans a tile; where compute can't hold its work, the pipeline draws this tile and the rest.
+  void buildQueues(const View& view, const Tile& tile, FrameStats& stats);
+  /// @throws SystemError unless the view lets us choose
+  void leaveToPipeline(const View& view, const std::vector<std::uint32_t>& people,
+                       std::vector<std::uint32_t>& computed, std::vector<std::uint32_t>& others) const;
   void buildShadowQueues(const View& view, const ShadowFit& fit);
   /// Queues the palettes of those whom the pipeline draws and of those whom compute skins by them.
   std::uint32_t queuePoses(const std::vector<std::uint32_t>& drawn,

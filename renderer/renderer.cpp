@@ -140,6 +140,7 @@ struct Renderer::Impl {
         device, *next.assets, *next.state, next.environment.get(), std::move(extents),
         FrameLimits{.max_buffer_bytes = options.max_buffer_bytes,
                     .pose_cache_bytes = std::uint64_t{scene.poses.cache_mib} << 20,
+                    .raster_work_bytes = options.raster_work_bytes,
                     .tiles = options.tiles});
     loaded.emplace(std::move(next));
   }

@@ -6,14 +6,15 @@
 
 namespace ensemble {
 
-TileGrid::TileGrid(std::uint32_t width, std::uint32_t height, const TileLimits& limits)
+TileGrid::TileGrid(std::uint32_t width, std::uint32_t height, const TileLimits& limits, std::uint32_t samples)
     : width_(width), height_(height) {
-  ENSEMBLE_CHECK(width > 0u && height > 0u);
+  ENSEMBLE_CHECK(width > 0u && height > 0u && samples > 0u);
   ENSEMBLE_CHECK(limits.side > 0u && limits.pixels >= limits.side);
+  const std::uint32_t pixels = std::max(limits.side, std::min(limits.pixels, limits.samples / samples));
   const auto split = [](std::uint32_t length, std::uint32_t most) { return (length - 1) / most + 1; };
   columns_ = split(width_, limits.side);
   tile_width_ = split(width_, columns_);
-  rows_ = split(height_, std::min(limits.side, limits.pixels / tile_width_));
+  rows_ = split(height_, std::min(limits.side, pixels / tile_width_));
   tile_height_ = split(height_, rows_);
   // Rounded up, the last ones may not be needed.
   columns_ = split(width_, tile_width_);

@@ -2,6 +2,7 @@
 // counts and sizes alone (design 8). No Vulkan.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,8 @@ class ViewPeople {
   /// The key that somebody is posed at (KeyFrames), or kExact. @pre seen or a caster
   std::uint32_t key(std::uint32_t person) const { return keys_[person]; }
   bool isComputed(std::uint32_t person) const { return is_computed_[person] != 0; }
+  /// Nobody is drawn by compute from now on; who casts shadows by it, and keys, stay.
+  void computeNobody() { std::fill(is_computed_.begin(), is_computed_.end(), std::uint8_t{0}); }
   bool castsComputed(std::uint32_t person) const { return casts_computed_[person] != 0; }
 
  private:

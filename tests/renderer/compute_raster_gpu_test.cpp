@@ -276,18 +276,30 @@ TEST_F(ComputeRasterTest, SmallestPictureAndNobodyInSight) {
   EXPECT_EQ(testing::countPeoplePixels(nobody), 0u);
 }
 
-TEST_F(ComputeRasterTest, APictureThatFitsNoBufferIsRefusedOrDrawnByThePipeline) {
-  Scene scene = crowdScene(RasterKind::kCompute);
-  scene.output.width = scene.output.height = 3000;
-  scene.output.samples = 4;
+TEST_F(ComputeRasterTest, WorkThatFitsNoBufferIsRefusedOrDrawnByThePipeline) {
+  const RendererOptions small{.raster_work_bytes = 2000};
+  Scene scene = crowdScene(RasterKind::kCompute, 60);
   try {
-    drawScene(scene, viewOf(scene));
+    drawScene(scene, viewOf(scene), 0.0, small);
     FAIL() << "no error";
   } catch (const SystemError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("pictures of 3000 x 3000 pixels of 4 samples don't fit the buffers of the compute "
-                          "rasteriser; set raster to auto"));
+                HasSubstr("needs more than the 2000 bytes that one buffer holds; use fewer people, or "
+                          "set raster to auto"));
   }
+  scene.raster = RasterKind::kAuto;
+  const Picture automatic = drawScene(scene, viewWithAovs(scene), 0.0, small);
+  scene.raster = RasterKind::kPipeline;
+  EXPECT_EQ(automatic.stats.characters_computed, 0u);
+  testing::expectSamePixels(automatic, drawScene(scene, viewWithAovs(scene), 0.0, small));
+}
+
+TEST_F(ComputeRasterTest, LargePicturesWithSeveralSamplesAreComputedInTiles) {
+  Scene scene = crowdScene(RasterKind::kCompute);
+  scene.output.width = scene.output.height = 3000;
+  scene.output.samples = 4;
+  const FrameStats stats = drawScene(scene, viewOf(scene)).stats;
+  EXPECT_GT(stats.characters_computed, 30u);
 }
 
 }  // namespace

@@ -40,6 +40,9 @@ TEST(TileGrid, LeavesOrdinaryPicturesWhole) {
   EXPECT_EQ(TileGrid(4096, 2304, {})[0], (Tile{0, 0, 4096, 2304}));
   EXPECT_EQ(TileGrid(7680, 4320, {}).count(), 4u);
   EXPECT_EQ(TileGrid(7680, 4320, {})[3], (Tile{3840, 2160, 3840, 2160}));
+  EXPECT_EQ(TileGrid(2560, 1440, {}, 4).count(), 1u);
+  EXPECT_EQ(TileGrid(3840, 2160, {}, 4).count(), 2u);
+  EXPECT_EQ(TileGrid(3840, 2160, {}, 4)[1], (Tile{0, 1080, 3840, 1080}));
   const TileGrid largest(16384, 16384, {});
   EXPECT_EQ(largest.count(), 32u);
   EXPECT_EQ(largest[31], (Tile{12288, 14336, 4096, 2048}));
