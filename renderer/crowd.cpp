@@ -309,7 +309,8 @@ Mat4 Character::worldFromModel() const {
               Vec4(position, 1.0f));
 }
 
-CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_seconds, double seconds) {
+CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_seconds, double seconds,
+                     FeetOf feet) {
   CharacterPose pose;
   Character now = character;
   pose.clip = pose.idle_clip = character.clip;
@@ -318,7 +319,8 @@ CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_
   } else {
     const Walker& walker = crowd.walkers[*character.walker];
     const WalkStyle& style = crowd.walk_styles[walker.style];
-    const WalkerPose walked = walkAt(walker, crowd.journeys[walker.journey], style, character.scale, seconds);
+    const WalkerPose walked =
+        walkAt(walker, crowd.journeys[walker.journey], style, character.scale, seconds, feet);
     now.position = walked.position;
     now.heading = walked.heading;
     pose.phase = walked.walk_phase;

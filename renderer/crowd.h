@@ -63,7 +63,8 @@ struct CharacterPose {
 };
 
 /// @param clip_seconds of the character's clip
-CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_seconds, double seconds);
+CharacterPose poseAt(const Crowd& crowd, const Character& character, float clip_seconds, double seconds,
+                     FeetOf feet = FeetOf::kAll);
 
 /// Fills a scene's placements. The same scene and wardrobes give the same crowd, on every machine
 /// (random.h). What is random about a person depends on the seed and the person's number in the

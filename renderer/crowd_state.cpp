@@ -125,9 +125,8 @@ void CrowdState::createPipeline(gpu::Device& device) {
   pipeline_ = gpu::makeComputePipeline(device, layout_, kPoseComp);
 }
 
-void CrowdState::setWalker(const Character& person, double seconds, GpuCharacter& character,
-                           Sphere& bounds) const {
-  const CharacterPose pose = poseAt(crowd_, person, 0.0f, seconds);
+void CrowdState::setWalker(const Character& person, GpuCharacter& character, Sphere& bounds) const {
+  const CharacterPose pose = poseAt(crowd_, person, 0.0f, seconds_, FeetOf::kNobody);
   const std::uint32_t first_clip = first_clip_[person.wardrobe];
   const Sphere &walk = clip_bounds_[first_clip + pose.clip],
                &idle = clip_bounds_[first_clip + pose.idle_clip];
@@ -140,18 +139,28 @@ void CrowdState::setWalker(const Character& person, double seconds, GpuCharacter
   character.idle_clip = first_clip + pose.idle_clip;
   character.idle_phase = pose.idle_phase;
   character.idle_weight = pose.idle_weight;
+  setFeet(pose, character);
+}
+
+void CrowdState::setFeet(const CharacterPose& pose, GpuCharacter& character) {
   for (std::size_t foot = 0; foot < 2; ++foot) {
     const FootShift& shift = pose.feet[foot];
     character.feet[foot] = {shift.x, shift.yaw, shift.z, pose.holds_feet ? 1.0f : 0.0f};
   }
 }
 
+void CrowdState::holdFeet(std::uint32_t person) {
+  const Character& who = crowd_.characters[person];
+  if (who.walker) setFeet(poseAt(crowd_, who, 0.0f, seconds_), characters_[person]);
+}
+
 void CrowdState::setTime(double seconds) {
+  seconds_ = seconds;
   for (std::uint32_t i = 0; i < characters_.size(); ++i) {
     const Character& person = crowd_.characters[i];
     GpuCharacter& character = characters_[i];
     if (person.walker) {
-      setWalker(person, seconds, character, bounds_[i]);
+      setWalker(person, character, bounds_[i]);
     } else {
       character.phase = phaseAt(seconds, clip_seconds_[character.clip], person.phase, person.speed);
     }
@@ -162,6 +171,7 @@ void CrowdState::setTime(double seconds) {
 }
 
 void CrowdState::uploadCharacters() {
+  for (std::uint32_t i = 0; i < characters_.size(); ++i) holdFeet(i);
   for (const CrowdChunk& chunk : chunks_) {
     std::copy_n(characters_.begin() + chunk.first, chunk.count,
                 chunk.characters.mapped<GpuCharacter>().begin());
@@ -190,8 +200,10 @@ std::uint32_t CrowdState::queuePoses(std::span<const std::uint32_t> people, cons
     CrowdChunk& chunk = chunks_[chunk_of_[person]];
     const std::uint32_t number = person - chunk.first;
     chunk.pose_queue.mapped<GpuPoseJob>()[chunk.pose_queue_length++] = {number, wanted};
-    if (!is_uploaded_) chunk.characters.mapped<GpuCharacter>()[number] = characters_[person];
     ++queued;
+    if (is_uploaded_) continue;
+    if (wanted == 0) holdFeet(person);
+    chunk.characters.mapped<GpuCharacter>()[number] = characters_[person];
   }
   return queued;
 }

@@ -43,7 +43,8 @@ class CrowdState {
   /// that time have a radius that touches nothing.
   const std::vector<Sphere>& bounds() const { return bounds_; }
   std::uint32_t characterCount() const { return static_cast<std::uint32_t>(characters_.size()); }
-  /// At the time set, on the host; by number.
+  /// At the time set, on the host; by number. Of feet that are held it is known who holds them, and by how
+  /// much they are moved once the device was told.
   std::span<const GpuCharacter> characters() const { return characters_; }
   std::span<const float> heights() const { return heights_; }  ///< metres, standing, scale included
   /// The chunk that somebody is in.
@@ -70,7 +71,10 @@ class CrowdState {
   void makeCharacters(const Animation& animation);
   static void setPlace(const Mat4& world_from_model, const Sphere& model_bounds, float scale,
                        GpuCharacter& character, Sphere& bounds);
-  void setWalker(const Character& person, double seconds, GpuCharacter& character, Sphere& bounds) const;
+  void setWalker(const Character& person, GpuCharacter& character, Sphere& bounds) const;
+  static void setFeet(const CharacterPose& pose, GpuCharacter& character);
+  /// What setTime() leaves out of a walker.
+  void holdFeet(std::uint32_t person);
   void makeChunks(gpu::Device& device, const Animation& animation, std::uint64_t max_buffer_bytes);
   void createPipeline(gpu::Device& device);
   void forgetPoses();
@@ -82,6 +86,7 @@ class CrowdState {
   std::vector<float> clip_seconds_;
   std::vector<Sphere> clip_bounds_;  // model space
   std::vector<GpuCharacter> characters_;
+  double seconds_ = 0.0;
   std::vector<std::uint32_t> combinations_;
   std::vector<Sphere> bounds_;
   std::vector<float> heights_;

@@ -58,7 +58,7 @@ class WalkerEvaluation {
         scale_(scale),
         stride_(double{style.stride} * scale) {}
 
-  WalkerPose at(double seconds) {
+  WalkerPose at(double seconds, FeetOf feet) {
     const Journey::Moment moment = journey_.at(walker_.head_start + seconds);
     findStretch(moment);
     const double phase = stretch_.phaseAt(moment.distance);
@@ -74,7 +74,8 @@ class WalkerEvaluation {
       pose.idle_weight =
           1.0f - static_cast<float>(smoothStep(0.0, double{style_.idle_below} * scale_, moment.speed));
     }
-    if (style_.gait) holdFeet(phase, pose);
+    pose.holds_feet = style_.gait.has_value();
+    if (pose.holds_feet && feet == FeetOf::kAll) holdFeet(phase, pose);
     return pose;
   }
 
@@ -210,7 +211,6 @@ class WalkerEvaluation {
   }
 
   void holdFeet(double phase, WalkerPose& pose) const {
-    pose.holds_feet = true;
     const Vec2 ground(pose.position.x, pose.position.z);
     for (std::size_t foot = 0; foot < 2; ++foot) {
       Vec3 natural = ankleAt(style_.walk_ankles, foot, phase);
@@ -235,8 +235,8 @@ class WalkerEvaluation {
 }  // namespace
 
 WalkerPose walkAt(const Walker& walker, const Journey& journey, const WalkStyle& style, float scale,
-                  double seconds) {
-  return WalkerEvaluation(walker, journey, style, scale).at(seconds);
+                  double seconds, FeetOf feet) {
+  return WalkerEvaluation(walker, journey, style, scale).at(seconds, feet);
 }
 
 }  // namespace ensemble

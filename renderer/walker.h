@@ -38,6 +38,9 @@ struct FootShift {
   float yaw = 0.0f;          ///< radians about +Y
 };
 
+/// Where feet stand takes most of the time, and matters for those alone who are drawn.
+enum class FeetOf : std::uint8_t { kAll, kNobody };
+
 struct WalkerPose {
   Vec3 position{0.0f};
   float heading = 0.0f;
@@ -46,8 +49,8 @@ struct WalkerPose {
   float idle_phase = 0.0f;   ///< 0 .. 1
   float idle_weight = 0.0f;  ///< 0 walks, 1 stands
   bool holds_feet = false;
-  std::array<FootShift, 2> feet;
-  bool exists = true;  ///< false: not there at this time
+  std::array<FootShift, 2> feet;  ///< FeetOf::kNobody: not moved
+  bool exists = true;             ///< false: not there at this time
 };
 
 /// The walk's phase is distance over stride, so that a planted foot moves back as fast as the figure
@@ -56,6 +59,6 @@ struct WalkerPose {
 /// foot passes it. Between two stands the stride is stretched so that both are reached on one foot.
 /// A function of time alone. @param scale the figure's
 WalkerPose walkAt(const Walker& walker, const Journey& journey, const WalkStyle& style, float scale,
-                  double seconds);
+                  double seconds, FeetOf feet = FeetOf::kAll);
 
 }  // namespace ensemble
