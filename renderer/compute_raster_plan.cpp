@@ -85,8 +85,9 @@ void ComputeRaster::planWork(Work& work, const CrowdState& state) {
 bool ComputeRaster::grow(Work& work, gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {
   if (buffer && bytes <= buffer.size()) return false;
   ++work.number;
-  buffer = gpu::Buffer(device_, std::min(bytes + bytes / 2, options_.work_bytes), usage,
-                       gpu::Buffer::Kind::kUpload, "the work of the rasteriser");
+  const std::uint64_t with_spare = std::min(bytes + bytes / 2, options_.work_bytes);
+  buffer = gpu::Buffer(device_, std::max(bytes, with_spare), usage, gpu::Buffer::Kind::kUpload,
+                       "the work of the rasteriser");
   return true;
 }
 
