@@ -205,7 +205,7 @@ void FrameLoop::requireCompute() const {
   throw SystemError({.file = {},
                      .where = "Vulkan device " + device_.name(),
                      .what = "it can't rasterise in compute shaders: it has no 64-bit atomics in buffers, or "
-                             "no shuffles or ballots in subgroups",
+                             "no shuffles in subgroups",
                      .mend = "set raster to auto"});
 }
 

@@ -59,12 +59,19 @@ struct Screen {
   vec2 uv;  // for cut-outs
 };
 
+// What push constants say of the target. Read once: where shaders run on the CPU each reading takes as long as
+// twenty additions, and stays inside of the loops that it is written in.
+struct Target {
+  ivec2 size;  // pixels
+  float near_plane;
+};
+
 // Of the material that a group's triangles are cut out by.
 struct CutOut {
   float alpha, cutoff, layer;
 };
 
-Screen toScreen(vec3 position, vec2 uv, vec4 row[3]) {
+Screen toScreen(vec3 position, vec2 uv, vec4 row[3], Target target) {
   vec4 p = vec4(position, 1.0);
   vec3 c = vec3(dot(row[0], p), dot(row[1], p), dot(row[2], p));
   Screen s;
@@ -75,7 +82,7 @@ Screen toScreen(vec3 position, vec2 uv, vec4 row[3]) {
   } else {
     float q = 1.0 / c.z;
     s.at = ivec2(roundEven(c.xy * q));
-    s.depth = near_plane * q;
+    s.depth = target.near_plane * q;
   }
   return s;
 }
@@ -108,23 +115,20 @@ bool isCutOut(CutOut mask, Screen a, Screen b, Screen c, float per_area, ivec3 e
 
 // Fixed-point edge functions, top-left rule. Extents of a triangle are below 2^15 sub-pixels, since whoever has
 // larger ones is drawn by the graphics pipeline; a leg bent beyond all bounds leaves its triangle out.
-void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uint id, bool is_there) {
+void rasterise(Target target, Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uint id, bool is_there) {
   ivec2 ab = b.at - a.at, ac = c.at - a.at;
   int area = ac.x * ab.y - ac.y * ab.x;
-  if (double_sided && area < 0) {
-    Screen t = b;
-    b = c;
-    c = t;
-    ab = b.at - a.at;
-    ac = c.at - a.at;
-    area = -area;
-  }
+  // From behind all areas are the negative ones.
+  int flip = double_sided ? area >> 31 : 0;
+  area = (area ^ flip) - flip;
+  ab = (ab ^ flip) - flip;
+  ac = (ac ^ flip) - flip;
   ivec2 least = min(a.at, min(b.at, c.at)), greatest = max(a.at, max(b.at, c.at));
   ivec2 low = max((least + (kSubpixels - 1 - kReach)) >> ENSEMBLE_SUBPIXEL_BITS, 0);
-  ivec2 high = min((greatest + kReach) >> ENSEMBLE_SUBPIXEL_BITS, ivec2(width, height) - 1);
+  ivec2 high = min((greatest + kReach) >> ENSEMBLE_SUBPIXEL_BITS, target.size - 1);
   bool fits = ((greatest.x - least.x) | (greatest.y - least.y)) < 1 << 15;
   if (is_there && fits && area > 0 && low.x <= high.x && low.y <= high.y) {
-    ivec2 bc = c.at - b.at, from = low << ENSEMBLE_SUBPIXEL_BITS;
+    ivec2 bc = ac - ab, from = low << ENSEMBLE_SUBPIXEL_BITS;
     // Twice the areas opposite of b and c, and of a, at the first pixel; steps to the right and down.
     int e_b = ac.y * (a.at.x - from.x) - ac.x * (a.at.y - from.y);
     int e_c = ab.x * (a.at.y - from.y) - ab.y * (a.at.x - from.x);
@@ -136,14 +140,14 @@ void rasterise(Screen a, Screen b, Screen c, bool double_sided, CutOut mask, uin
     float nearest = a.depth;
     if (kToSun) {
       vec2 slope = abs(vec2(by_b * float(right.y) + by_c * float(right.z), by_b * float(down.y) + by_c * float(down.z)));
-      nearest += near_plane * max(slope.x, slope.y);
+      nearest += target.near_plane * max(slope.x, slope.y);
     }
-    // An edge owns its points where it is a top or a left one.
-    ivec3 owned = ivec3(greaterThan(right * 2 + sign(down), ivec3(0))) - 1;
+    // An edge owns its points where it is a left one, or level and a top one.
+    ivec3 owned = ivec3(greaterThan((by_x << 16) + by_y, ivec3(0))) - 1;
     ivec3 e = ivec3(e_a, e_b, e_c) + owned;
     int columns = high.x - low.x, x = 0;
     ivec3 next_row = down - columns * right;
-    int pixel = low.y * int(width) + low.x, last = high.y * int(width) + high.x, next_pixel = int(width) - columns;
+    int pixel = low.y * target.size.x + low.x, last = high.y * target.size.x + high.x, next_pixel = target.size.x - columns;
     [[dont_unroll]] for (;;) {
       bool is_cut = kCutOut && isCutOut(mask, a, b, c, per_area, e, right, down);
       if (kSamples == 1) {
@@ -192,6 +196,8 @@ void main() {
   bool double_sided = work.is_double_sided != 0u;
   CutOut mask = cutOutOf(work.material);
 
+  Target target = Target(ivec2(width, height), near_plane);
+
   uint first_entry = 0u;
   [[dont_unroll]] for (;;) {
     uint entry = entries[group.first_entry + min(first_entry + lane, group.entry_count - 1u)];
@@ -213,7 +219,7 @@ void main() {
       [[dont_unroll]] for (;;) {
         vec4 row[3] = vec4[3](subgroupShuffle(rows[0], j), subgroupShuffle(rows[1], j), subgroupShuffle(rows[2], j));
         bool is_there = triangle + lane < triangle_end && !isHidden(subgroupShuffle(first_word, j), face);
-        rasterise(toScreen(p, uv_p, row), toScreen(q, uv_q, row), toScreen(r, uv_r, row), double_sided, mask,
+        rasterise(target, toScreen(p, uv_p, row, target), toScreen(q, uv_q, row, target), toScreen(r, uv_r, row, target), double_sided, mask,
                   subgroupShuffle(entry, j) + mine, is_there);
         if (++j >= people_count) break;
       }

@@ -8,9 +8,11 @@
 layout(local_size_x = 1) in;
 
 void main() {
-  uint first = bins[bin_count].count;  // behind those found
+  // Sorted they stand behind those found; of one bin alone they are left where they are.
+  bool is_sorted = bin_count == 1u;
+  uint first = is_sorted ? 0u : bins[bin_count].count;
   for (uint i = 0u; i <= bin_count; ++i) {
-    uint count = bins[i].count;
+    uint count = is_sorted && i == bin_count ? 0u : bins[i].count;
     uint groups = (count + ENSEMBLE_GROUP_PIXELS - 1u) / ENSEMBLE_GROUP_PIXELS;
     bins[i].first = i < bin_count ? first : 0u;
     bins[i].cursor = first;

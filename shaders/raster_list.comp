@@ -5,7 +5,6 @@
 #include "shaders/shared/raster_types.h"
 #include "shaders/raster_sets.glsl"
 #include "shaders/raster_pixels.glsl"
-#include "shaders/raster_counters.glsl"
 
 layout(local_size_x = ENSEMBLE_LIST_GROUP) in;
 

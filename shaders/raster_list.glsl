@@ -1,59 +1,98 @@
 // Lists the samples at which somebody rasterised in compute is in front of all that the graphics pipeline drew:
 // an entry for each person and face that a pixel shows. drawnDepth(pixel, sample) is declared before.
-void listSamples(uint pixel, uvec2 key, uint samples) {
-  uint id = ~key.x;
+//
+// An invocation has a run of pixels. It first finds out which of them show somebody, so that it takes a place in the
+// list once for all; where shaders run on the CPU all lanes do what one has to do, hence each goes on to its next
+// pixel that has something to do.
+
+// What is seen at the samples of a pixel. @return bits: at which of them it is in front
+uint openSamples(uint pixel, out uvec2 keys[kSamples]) {
+  uint open = 0u;
+  ivec2 at = ivec2(pixel % width, pixel / width);
+  for (int i = 0; i < kSamples; ++i) {
+    keys[i] = texelFetch(seen, int(pixel) * kSamples + i).xy;
+    // At equal depth people come before ground and environment.
+    bool is_in_front = keys[i].y != 0u && uintBitsToFloat(keys[i].y) >= drawnDepth(at, i);
+    open |= uint(is_in_front) << i;
+  }
+  return open;
+}
+
+// Of the open samples those that show what the first of them does.
+uint alikeSamples(uint open, uvec2 keys[kSamples]) {
+  if (kSamples == 1) return open;
+  uint id = keys[findLSB(open)].x, alike = 0u;
+  for (int i = 0; i < kSamples; ++i) alike |= (open & (1u << i)) != 0u && keys[i].x == id ? 1u << i : 0u;
+  return alike;
+}
+
+uint entriesOf(uint pixel) {
+  uvec2 keys[kSamples];
+  uint open = openSamples(pixel, keys);
+  if (kSamples == 1) return open;
+  uint entries = 0u;
+  while (open != 0u) {
+    open &= ~alikeSamples(open, keys);
+    ++entries;
+  }
+  return entries;
+}
+
+// Whether somebody is at a pixel, in front or not.
+bool isSeen(uint pixel) {
+  uint depths = 0u;
+  for (int i = 0; i < kSamples; ++i) depths |= texelFetch(seen, int(pixel) * kSamples + i).y;
+  return depths != 0u;
+}
+
+// Entries of one bin that follow each other are counted at once.
+struct BinRun {
+  uint bin, count;
+};
+
+void countRun(BinRun run) {
+  if (run.count != 0u) atomicAdd(bins[run.bin].count, run.count);
+}
+
+void listSamples(uint place, uint pixel, uint id, uint samples, inout BinRun run) {
   uvec4 person = texelFetch(who, int(id >> face_bits));
   uvec3 item = itemOfFace(person.x, id & ((1u << face_bits) - 1u));
   uvec4 first = texelFetch(items, int(item.x * ENSEMBLE_RASTER_ITEM_TEXELS));
   uint pose = poseOf(person, item, first.z);
   uint of_bin = first.w + (pose >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
-  addToBin(of_bin);
-  pixels[addToAll()] = uvec4(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item.x | of_bin << ENSEMBLE_LISTED_ITEM_BITS,
-                             id - item.y, pose & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u));
-}
-
-// At equal depth people come before ground and environment.
-bool isInFront(uint pixel, int number, uvec2 key) {
-  return key.y != 0u && uintBitsToFloat(key.y) >= drawnDepth(ivec2(pixel % width, pixel / width), number);
-}
-
-void listPixel(uint pixel) {
-  if (kSamples == 1) {
-    uvec2 key = texelFetch(seen, int(pixel)).xy;
-    if (isInFront(pixel, 0, key)) listSamples(pixel, key, 1u);
-    return;
+  pixels[place] = uvec4(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item.x | of_bin << ENSEMBLE_LISTED_ITEM_BITS,
+                        id - item.y, pose & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u));
+  if (of_bin != run.bin) {
+    countRun(run);
+    run = BinRun(of_bin, 0u);
   }
-  uvec2 keys[4];
-  uint open = 0u;
-  for (int i = 0; i < 4; ++i) {
-    keys[i] = texelFetch(seen, int(4u * pixel) + i).xy;
-    if (isInFront(pixel, i, keys[i])) open |= 1u << i;
-  }
-  while (open != 0u) {
-    int first = findLSB(open);
-    uint alike = 0u;
-    for (int i = 0; i < 4; ++i) alike |= (open & (1u << i)) != 0u && keys[i].x == keys[first].x ? 1u << i : 0u;
-    listSamples(pixel, keys[first], alike);
-    open &= ~alike;
-  }
+  ++run.count;
 }
 
-// Whether somebody is at a pixel of the band, in front or not.
-bool isSeen(uint number) {
-  int sample_0 = int((first_pixel + number) * kSamples);
-  uint depths = texelFetch(seen, sample_0).y;
-  if (kSamples > 1) depths |= texelFetch(seen, sample_0 + 1).y | texelFetch(seen, sample_0 + 2).y | texelFetch(seen, sample_0 + 3).y;
-  return depths != 0u;
-}
-
-// Where shaders run on the CPU all lanes do what one has to do: hence each goes on to its next pixel that has
-// something to do.
 void main() {
-  uint number = firstPixelOfInvocation(), end = min(number + ENSEMBLE_GROUP_PIXELS, pixel_count);
-  [[dont_unroll]] for (;;) {
-    [[dont_unroll]] while (number < end && !isSeen(number)) number += ENSEMBLE_LIST_GROUP;
+  uint first = firstOfRun(), end = min(first + ENSEMBLE_LIST_RUN, pixel_count);
+  uint open_pixels = 0u, entries = 0u;
+  [[dont_unroll]] for (uint number = first;; ++number) {
+    [[dont_unroll]] while (number < end && !isSeen(first_pixel + number)) ++number;
     if (number >= end) break;
-    listPixel(first_pixel + number);
-    number += ENSEMBLE_LIST_GROUP;
+    uint more = entriesOf(first_pixel + number);
+    open_pixels |= uint(more != 0u) << (number - first);
+    entries += more;
   }
+  if (entries == 0u) return;
+
+  uint place = atomicAdd(bins[bin_count].count, entries);
+  BinRun run = BinRun(0u, 0u);
+  [[dont_unroll]] for (; open_pixels != 0u; open_pixels &= open_pixels - 1u) {
+    uint pixel = first_pixel + first + uint(findLSB(open_pixels));
+    uvec2 keys[kSamples];
+    uint open = openSamples(pixel, keys);
+    [[dont_unroll]] for (;;) {
+      uint alike = alikeSamples(open, keys);
+      listSamples(place++, pixel, ~keys[kSamples == 1 ? 0 : findLSB(open)].x, alike, run);
+      open &= ~alike;
+      if (open == 0u) break;
+    }
+  }
+  countRun(run);
 }

@@ -32,6 +32,11 @@ uint firstPixelOfInvocation() {
   return groupNumber() * ENSEMBLE_GROUP_PIXELS + gl_LocalInvocationID.x;
 }
 
+// The first of the run of neighbours that this invocation is for.
+uint firstOfRun() {
+  return groupNumber() * ENSEMBLE_GROUP_PIXELS + gl_LocalInvocationID.x * ENSEMBLE_LIST_RUN;
+}
+
 // The corners of a triangle. @param index the number of its first one in the buffer of indices
 uvec3 cornersAt(uint index) {
   // Texels of 16 bits would take far longer to read where shaders run on the CPU.

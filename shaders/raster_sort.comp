@@ -5,14 +5,18 @@
 #include "shaders/shared/raster_types.h"
 #include "shaders/raster_sets.glsl"
 #include "shaders/raster_pixels.glsl"
-#include "shaders/raster_counters.glsl"
 
 layout(local_size_x = ENSEMBLE_LIST_GROUP) in;
 
+uint binOf(uint number) { return texelFetch(listed_pixels, int(number)).y >> ENSEMBLE_LISTED_ITEM_BITS; }
+
+// Pixels of one bin that follow each other take their places at once.
 void main() {
-  uint first = firstPixelOfInvocation(), end = min(first + ENSEMBLE_GROUP_PIXELS, bins[bin_count].count);
-  [[dont_unroll]] for (uint number = first; number < end; number += ENSEMBLE_LIST_GROUP) {
-    uvec4 found = texelFetch(listed_pixels, int(number));
-    pixels[nextInBin(found.y >> ENSEMBLE_LISTED_ITEM_BITS)] = found;
+  uint number = firstOfRun(), end = min(number + ENSEMBLE_LIST_RUN, bins[bin_count].count);
+  [[dont_unroll]] while (number < end) {
+    uint of_bin = binOf(number), run_end = number + 1u;
+    [[dont_unroll]] while (run_end < end && binOf(run_end) == of_bin) ++run_end;
+    uint place = atomicAdd(bins[of_bin].cursor, run_end - number);
+    [[dont_unroll]] for (; number < run_end; ++number) pixels[place++] = texelFetch(listed_pixels, int(number));
   }
 }

@@ -72,8 +72,7 @@ bool canRasteriseOn(const vk::raii::PhysicalDevice& device) {
   const auto properties =
       device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
   const auto& subgroup = properties.get<vk::PhysicalDeviceSubgroupProperties>();
-  constexpr auto wanted = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eShuffle |
-                          vk::SubgroupFeatureFlagBits::eBallot;
+  constexpr auto wanted = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eShuffle;
   return features.get<vk::PhysicalDeviceFeatures2>().features.shaderInt64 &&
          features.get<vk::PhysicalDeviceVulkan12Features>().shaderBufferInt64Atomics &&
          (subgroup.supportedOperations & wanted) == wanted &&

@@ -50,8 +50,8 @@ class Device {
   bool isCpu() const { return properties_.deviceType == vk::PhysicalDeviceType::eCpu; }
   bool hasPipelineStatistics() const { return features_.pipelineStatisticsQuery; }
   bool hasTimestamps() const { return has_timestamps_; }
-  /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers, shuffles and ballots
-  /// in subgroups.
+  /// Whether compute shaders have what our rasteriser needs: 64-bit atomics in buffers, shuffles in
+  /// subgroups.
   bool canRasterise() const { return can_rasterise_; }
   /// Whether draws may take their number from a buffer.
   bool canCountDraws() const { return can_count_draws_; }
