@@ -75,8 +75,9 @@
 // Invocations of a group that skins, and the vertices that they do.
 #define ENSEMBLE_SKIN_GROUP 64
 #define ENSEMBLE_SKIN_RUN 512u
-// Passes over pixels: invocations of a group, and pixels of an invocation, a group apart. Where shaders run
-// on the CPU an invocation costs as much to begin as a simple pixel.
+// Passes over pixels: invocations of a group, and pixels of an invocation: neighbours where they are listed,
+// a group apart where they are shaded. Where shaders run on the CPU an invocation costs as much to begin as a
+// simple pixel.
 #define ENSEMBLE_LIST_GROUP 64
 #define ENSEMBLE_LIST_RUN 16
 #define ENSEMBLE_GROUP_PIXELS (ENSEMBLE_LIST_GROUP * ENSEMBLE_LIST_RUN)
@@ -231,6 +232,7 @@ static_assert(sizeof(GpuRasterItem) == 16 * ENSEMBLE_RASTER_ITEM_TEXELS);
 static_assert(sizeof(GpuRasterWork) == 48 && sizeof(GpuRasterGroup) == 16);
 static_assert(sizeof(GpuOccludee) == 16 * ENSEMBLE_OCCLUDEE_TEXELS && sizeof(GpuRunBox) == 32 &&
               sizeof(GpuRasterBatch) == 32);
+static_assert(ENSEMBLE_LIST_RUN <= 32);  // bits of a mask, one for each pixel of a run
 static_assert(sizeof(GpuSkinJob) == 32 && offsetof(GpuSkinJob, first_vertex) == 16);
 static_assert(sizeof(GpuRasterBin) == 32 && offsetof(GpuRasterBin, groups_x) == 16);
 }  // namespace ensemble
