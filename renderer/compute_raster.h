@@ -42,7 +42,7 @@ class ComputeRaster {
 
   /// Somebody with a pose of its own.
   struct OwnPerson {
-    std::uint32_t combination = 0;
+    std::uint32_t number = 0, combination = 0;
     PlanPose pose;
   };
 
@@ -89,11 +89,14 @@ class ComputeRaster {
   };
 
   void beginFrame() { poses_.beginFrame(); }
-  /// Plans an eye's work. @param numbers of people in the crowd, ascending; who is between key frames has its
-  /// palette queued
-  /// @return whether the work fits the device's buffers; if not, none is planned
-  [[nodiscard]] bool plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
-                          std::span<const std::uint32_t> numbers, const Occlusion& occlusion);
+  /// Arranges an eye's work; asks for no pose yet. @param numbers of people in the crowd, ascending
+  /// @return whether the work fits the device's buffers; if not, there is none
+  [[nodiscard]] bool arrange(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+                             std::span<const std::uint32_t> numbers, const Occlusion& occlusion);
+  /// Plans what was arranged, of the same people: asks for their poses, and tells the device. Who is between
+  /// key frames has its palette queued.
+  void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+            std::span<const std::uint32_t> numbers);
   /// @throws SystemError always: what to do where work doesn't fit
   [[noreturn]] void refuseWork() const;
   bool hasWork(Eye eye) const { return !workOf(eye).people.empty(); }
@@ -133,7 +136,7 @@ class ComputeRaster {
   const Work& workOf(Eye eye) const { return eye == Eye::kCamera ? camera_ : sun_work_; }
   const vk::raii::Pipeline& rasterPipeline(const Target& target, const RasterItems::State& state) const;
   void createPipelines();
-  void planWork(Work& work, const CrowdState& state);
+  void placeWork(Work& work, const CrowdState& state);
   /// Who is far away is left to the second round.
   void chooseRounds(Work& work, const ScreenRows& rows, const CrowdState& state,
                     std::span<const std::uint32_t> numbers);

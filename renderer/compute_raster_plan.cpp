@@ -13,8 +13,8 @@ using Usage = vk::BufferUsageFlagBits;
 
 }  // namespace
 
-bool ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
-                         std::span<const std::uint32_t> numbers, const Occlusion& occlusion) {
+bool ComputeRaster::arrange(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+                            std::span<const std::uint32_t> numbers, const Occlusion& occlusion) {
   Work& work = workOf(eye);
   work.people.clear();
   work.own.clear();
@@ -23,31 +23,36 @@ bool ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& stat
     std::uint32_t key = shown.key(number);
     if (key == ViewPeople::kExact) {
       key = key_count + static_cast<std::uint32_t>(work.own.size());
-      work.own.push_back({state.combinations()[number], poses_.requireOwn(number)});
+      work.own.push_back({number, state.combinations()[number], {}});
     }
     work.people.push_back({state.combinations()[number], key});
   }
   if (work.people.empty()) return true;
   work.drawn_hides = occlusion.drawn_hides;
   if (occlusion.is_on) chooseRounds(work, rows, state, numbers);
-  planWork(work, state);
-  if (workBytes(work) > options_.work_bytes) {
-    work.people.clear();
-    poses_.prepare();  // for what was required by now
-    return false;
-  }
+  work.plan->arrange(work.people, key_count + static_cast<std::uint32_t>(work.own.size()),
+                     work.plan->faceBits());
+  const bool fits = workBytes(work) <= options_.work_bytes;
+  if (!fits) work.people.clear();
+  return fits;
+}
+
+void ComputeRaster::plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
+                         std::span<const std::uint32_t> numbers) {
+  Work& work = workOf(eye);
+  if (work.people.empty()) return;
+  placeWork(work, state);
   upload(work, rows, state, numbers);
   uploadOccludees(work, rows, state, shown, numbers);
-  return true;
 }
 
 std::uint64_t ComputeRaster::workBytes(const Work& work) const {
   const RasterPlan& plan = *work.plan;
   return std::max({(plan.entries().size() + plan.pickedCount()) * sizeof(std::uint32_t),
                    plan.work().size() * sizeof(GpuRasterWork),
-                   (2 * plan.groups().size() - plan.firstLateGroup()) * sizeof(GpuRasterGroup),
+                   (plan.groupCount() + plan.lateGroupCount()) * sizeof(GpuRasterGroup),
                    work.people.size() * std::max({sizeof(GpuRasterPerson), sizeof(GpuRasterWho),
-                                                  plan.hasSecondRound() ? sizeof(GpuOccludee) : 0})});
+                                                  plan.lateGroupCount() > 0 ? sizeof(GpuOccludee) : 0})});
 }
 
 void ComputeRaster::refuseWork() const {
@@ -71,15 +76,15 @@ void ComputeRaster::chooseRounds(Work& work, const ScreenRows& rows, const Crowd
   for (std::size_t i = 0; i < numbers.size(); ++i) work.people[i].is_late = distances_[i] > from;
 }
 
-void ComputeRaster::planWork(Work& work, const CrowdState& state) {
+void ComputeRaster::placeWork(Work& work, const CrowdState& state) {
+  for (OwnPerson& own : work.own) own.pose = poses_.requireOwn(own.number);
   const auto key_count = static_cast<std::uint32_t>(state.keyFrames().keys.size());
   const auto pose_of = [&](std::uint32_t mesh, std::uint32_t key) -> PlanPose {
     if (key < key_count) return poses_.require(mesh, key);
     const OwnPerson& own = work.own[key - key_count];
     return {own.pose.buffer, own.pose.first_vertex + poses_.firstOwnVertex(own.combination, mesh)};
   };
-  work.plan->build(work.people, key_count + static_cast<std::uint32_t>(work.own.size()),
-                   work.plan->faceBits(), pose_of);
+  work.plan->place(pose_of);
 }
 
 bool ComputeRaster::grow(Work& work, gpu::Buffer& buffer, std::uint64_t bytes, vk::BufferUsageFlags usage) {

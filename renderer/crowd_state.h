@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "renderer/animation_texture.h"
@@ -43,8 +42,8 @@ class CrowdState {
   /// that time have a radius that touches nothing.
   const std::vector<Sphere>& bounds() const { return bounds_; }
   std::uint32_t characterCount() const { return static_cast<std::uint32_t>(characters_.size()); }
-  /// At the time set, on the host; by number. Of feet that are held it is known who holds them, and by how
-  /// much they are moved once the device was told.
+  /// At the time set, on the host; by number. Of feet that are held it is known who holds them; by how
+  /// much they are moved, of those whose pose was queued, once the device was told.
   std::span<const GpuCharacter> characters() const { return characters_; }
   std::span<const float> heights() const { return heights_; }  ///< metres, standing, scale included
   /// The chunk that somebody is in.

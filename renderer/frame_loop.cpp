@@ -165,6 +165,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
   choosePeople(view, fit);
   stats.characters_drawn = static_cast<std::uint32_t>(visible_.size());
   stats.characters_computed = static_cast<std::uint32_t>(computed_.size());
+  if (!arrangeTiles(view, grid)) stats.characters_computed = 0;
   buildShadowQueues(view, fit);
   picture.coverage.assign(view.coverage ? state_.characterCount() : 0, 0);
   for (std::uint32_t i = 0; i < grid.count(); ++i) {
@@ -172,7 +173,7 @@ void FrameLoop::drawView(const View& view, Clock::time_point start, Picture& pic
     const bool is_first = i == 0;
     if (!is_first) start = Clock::now();
     slot.targets.tile = grid[i];
-    buildQueues(view, slot.targets.tile, stats);
+    buildQueues(view, slot.targets.tile);
     slot.view_buffer.mapped<GpuView>()[0] = makeGpuView(view, slot.targets.tile, fit);
     if (culls_on_device_) {
       culling_->aim(view, slot.targets.tile, fit, is_first);
@@ -276,24 +277,34 @@ FrameLoop::Slot& FrameLoop::slotFor(const View& view, const TileGrid& grid, std:
   return **found;
 }
 
-void FrameLoop::buildQueues(const View& view, const Tile& tile, FrameStats& stats) {
-  const Frustum frustum = frustumOf(view, tile);
-  if (!culls_on_device_) {
-    if (tile != wholeOf(view)) {  // else choosePeople() has found them
-      findVisible(frustum, state_.bounds(), visible_);
-      divide(
-          visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
-    }
+bool FrameLoop::arrangeTile(const View& view, const Tile& tile) {
+  if (!culls_on_device_ && tile != wholeOf(view)) {  // else choosePeople() has found them
+    findVisible(frustumOf(view, tile), state_.bounds(), visible_);
+    divide(
+        visible_, [&](std::uint32_t person) { return shown_.isComputed(person); }, computed_, near_);
   }
-  if (compute_ &&
-      !compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_,
-                      {.is_on = view.occlusion, .drawn_hides = environment_pass_ || !near_.empty()})) {
+  return !compute_ ||
+         compute_->arrange(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_,
+                           {.is_on = view.occlusion, .drawn_hides = environment_pass_ || !near_.empty()});
+}
+
+bool FrameLoop::arrangeTiles(const View& view, const TileGrid& grid) {
+  for (std::uint32_t i = 0; i < grid.count(); ++i) {
+    if (arrangeTile(view, grid[i])) continue;
     leaveToPipeline(view, visible_, computed_, near_);
     shown_.computeNobody();
-    stats.characters_computed = 0;
+    return false;
   }
+  return true;
+}
+
+void FrameLoop::buildQueues(const View& view, const Tile& tile) {
+  if (tile != wholeOf(view)) ENSEMBLE_CHECK(arrangeTile(view, tile));
+  if (compute_)
+    compute_->plan(ComputeRaster::Eye::kCamera, cameraRows(view, tile), state_, shown_, computed_);
   if (!culls_on_device_) main_queues_.build(assets_, state_, near_);
   if (!environment_pass_) return;
+  const Frustum frustum = frustumOf(view, tile);
   environment_pass_->fill([&](const Box& box) { return frustum.touches(box); }, main_environment_);
 }
 
@@ -309,9 +320,12 @@ void FrameLoop::buildShadowQueues(const View& view, const ShadowFit& fit) {
   divide(
       casters_, [&](std::uint32_t person) { return shown_.castsComputed(person); }, computed_casters_,
       near_casters_);
-  if (compute_ &&
-      !compute_->plan(ComputeRaster::Eye::kSun, sunRows(fit), state_, shown_, computed_casters_, {}))
-    leaveToPipeline(view, casters_, computed_casters_, near_casters_);
+  if (compute_) {
+    constexpr auto kSun = ComputeRaster::Eye::kSun;
+    if (!compute_->arrange(kSun, sunRows(fit), state_, shown_, computed_casters_, {}))
+      leaveToPipeline(view, casters_, computed_casters_, near_casters_);
+    compute_->plan(kSun, sunRows(fit), state_, shown_, computed_casters_);
+  }
   if (!culls_on_device_) shadow_queues_.build(assets_, state_, near_casters_);
   if (!environment_pass_) return;
   environment_pass_->fill([&](const Box& box) { return view.light.shadows && mayCast(fit, box); },

@@ -68,8 +68,13 @@ class FrameLoop {
   /// Whether a view's people are culled and queued by shaders: where nobody can be the compute rasteriser's,
   /// and nothing else needs to know of them on the host.
   bool cullsOnDevice(const View& view) const;
-  /// Queues and plans a tile; where compute can't hold its work, the pipeline draws this tile and the rest.
-  void buildQueues(const View& view, const Tile& tile, FrameStats& stats);
+  /// Finds who is in a tile, and arranges what compute draws of it. @return whether that fits its buffers
+  [[nodiscard]] bool arrangeTile(const View& view, const Tile& tile);
+  /// Arranges all tiles, before any is drawn.
+  /// @return whether they fit; if one does not, the pipeline draws them all
+  [[nodiscard]] bool arrangeTiles(const View& view, const TileGrid& grid);
+  /// Queues and plans a tile. @pre it is the only one, and arranged, or all fit
+  void buildQueues(const View& view, const Tile& tile);
   /// @throws SystemError unless the view lets us choose
   void leaveToPipeline(const View& view, const std::vector<std::uint32_t>& people,
                        std::vector<std::uint32_t>& computed, std::vector<std::uint32_t>& others) const;

@@ -11,9 +11,6 @@
 namespace ensemble {
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
 constexpr auto kStorage = vk::DescriptorType::eStorageBuffer;
 /// In the order of ENSEMBLE_BINDING_OCCLUSION_...
 constexpr std::initializer_list<vk::DescriptorType> kBindings = {vk::DescriptorType::eUniformTexelBuffer,

@@ -12,6 +12,10 @@ void PoseCache::beginFrame() {
   while (stats_.kept_vertices > limits_.budget_vertices) dropOldest();
 }
 
+void PoseCache::clear() {
+  while (!by_use_.empty()) dropOldest();
+}
+
 KeptPose PoseCache::require(std::uint32_t pose, std::uint32_t vertex_count) {
   ENSEMBLE_CHECK(vertex_count > 0 && vertex_count <= limits_.buffer_vertices);
   const auto [found, is_new] = entries_.try_emplace(pose);

@@ -34,6 +34,8 @@ class PoseCache {
 
   /// Drops what the budget does not hold.
   void beginFrame();
+  /// Drops all.
+  void clear();
   /// @param vertex_count always the same for a pose, at most a buffer's
   KeptPose require(std::uint32_t pose, std::uint32_t vertex_count);
 

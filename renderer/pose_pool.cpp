@@ -141,6 +141,11 @@ void PosePool::createPipelines() {
 }
 
 void PosePool::beginFrame() {
+  if (!jobs_.empty()) {  // the last frame ended in an error: what it asked for was never made
+    jobs_.clear();
+    group_count_ = 0;
+    cache_.clear();
+  }
   cache_.beginFrame();
   own_.beginFrame();
   skinned_vertices_ = 0;

@@ -44,10 +44,25 @@ void RasterPlan::sortByKey(std::span<const PlanPerson> people, std::uint32_t key
   for (std::uint32_t i = 0; i < people.size(); ++i) by_key_[key_cursors_[block_of(people[i])]++] = i;
 }
 
+void RasterPlan::arrange(std::span<const PlanPerson> people, std::uint32_t key_count,
+                         std::uint32_t face_bits) {
+  sortByKey(people, key_count);
+  beginWork();
+  for (const Block& block : blocks_) {
+    const bool is_late = block.key >= key_count;
+    gather(block, people, face_bits);
+    for (const std::uint32_t item : touched_)
+      addWork(item, is_late ? block.key - key_count : block.key, is_late);
+  }
+}
+
 void RasterPlan::beginWork() {
   entries_.clear();
   work_.clear();
+  work_from_.clear();
   work_batch_.clear();
+  group_count_ = 0;
+  late_group_count_ = 0;
   picked_count_ = 0;
   triangle_count_ = 0;
   late_triangle_count_ = 0;
@@ -76,18 +91,21 @@ void RasterPlan::gather(const Block& block, std::span<const PlanPerson> people, 
   });
 }
 
-void RasterPlan::addWork(std::uint32_t item, const PlanPose& pose, bool is_late) {
+void RasterPlan::addWork(std::uint32_t item, std::uint32_t key, bool is_late) {
   const PlanItem& from = items_[item];
   const std::uint32_t people = std::exchange(item_count_[item], 0u);
   GpuRasterWork& work = work_.emplace_back(from.work);
-  work.pose = pose.first_vertex;
   work.first_entry = item_first_[item];
   work.entry_count = people;
   const std::uint32_t group_count = (work.triangle_count + triangles_per_group_ - 1) / triangles_per_group_;
-  work_batch_.push_back({from.state, pose.buffer, is_late, 0, group_count});
+  work_from_.push_back({from.mesh, key});
+  work_batch_.push_back({from.state, 0, is_late, 0, group_count});
+  group_count_ += group_count;
   if (is_late) {
-    work.first_picked = picked_count_;  // counted from behind the entries: see finishWork()
-    picked_count_ += people * group_count;
+    late_group_count_ += group_count;
+    // Counted from behind the entries: see finishWork(). Beyond 32 bits no buffer holds the work.
+    work.first_picked = static_cast<std::uint32_t>(picked_count_);
+    picked_count_ += std::uint64_t{people} * group_count;
   }
   triangle_count_ += std::uint64_t{people} * work.triangle_count;
   if (is_late) late_triangle_count_ += std::uint64_t{people} * work.triangle_count;

@@ -49,21 +49,22 @@ class RasterPlan {
   RasterPlan(std::vector<PlanItem> items, std::vector<std::vector<ShownItem>> shown,
              std::uint32_t triangles_per_group);
 
-  /// Plans for people in the order of their ids. `pose_of(mesh, key)` gives a PlanPose.
+  /// First step: what there is to draw, for people in the order of their ids. Needs no poses.
   /// @param key_count all keys are below it
+  void arrange(std::span<const PlanPerson> people, std::uint32_t key_count, std::uint32_t face_bits);
+  /// Second step: where its poses are, in groups and batches. `pose_of(mesh, key)` gives a PlanPose.
   template <class PoseOf>
-  void build(std::span<const PlanPerson> people, std::uint32_t key_count, std::uint32_t face_bits,
-             const PoseOf& pose_of) {
-    sortByKey(people, key_count);
-    beginWork();
-    for (const Block& block : blocks_) {
-      const bool is_late = block.key >= key_count;
-      gather(block, people, face_bits);
-      for (const std::uint32_t item : touched_)
-        addWork(item, pose_of(items_[item].mesh, is_late ? block.key - key_count : block.key), is_late);
+  void place(const PoseOf& pose_of) {
+    for (std::uint32_t w = 0; w < work_.size(); ++w) {
+      const PlanPose pose = pose_of(work_from_[w].mesh, work_from_[w].key);
+      work_[w].pose = pose.first_vertex;
+      work_batch_[w].pose_buffer = pose.buffer;
     }
     finishWork();
   }
+  /// Groups that place() makes of what was arranged; of these the second round's.
+  std::uint64_t groupCount() const { return group_count_; }
+  std::uint64_t lateGroupCount() const { return late_group_count_; }
 
   const std::vector<std::uint32_t>& entries() const { return entries_; }
   const std::vector<GpuRasterWork>& work() const { return work_; }
@@ -72,7 +73,7 @@ class RasterPlan {
   std::uint32_t firstLateGroup() const { return first_late_group_; }
   bool hasSecondRound() const { return first_late_group_ < groups_.size(); }
   /// Room behind the entries for those that the device picks.
-  std::uint32_t pickedCount() const { return picked_count_; }
+  std::uint64_t pickedCount() const { return picked_count_; }
   /// Those of the second round behind the others.
   const std::vector<PlanBatch>& batches() const { return batches_; }
   std::uint64_t triangleCount() const { return triangle_count_; }           ///< of all people
@@ -89,7 +90,7 @@ class RasterPlan {
   void beginWork();
   /// Entries of all people of a block, item by item; touched_ are its items, with ranges in entry_first_ ...
   void gather(const Block& block, std::span<const PlanPerson> people, std::uint32_t face_bits);
-  void addWork(std::uint32_t item, const PlanPose& pose, bool is_late);
+  void addWork(std::uint32_t item, std::uint32_t key, bool is_late);
   void finishWork();
 
   std::vector<PlanItem> items_;
@@ -101,10 +102,15 @@ class RasterPlan {
   std::vector<std::uint32_t> touched_, item_first_, item_count_;  // of the block at hand, per item
   std::vector<std::uint32_t> entries_;
   std::vector<GpuRasterWork> work_;
+  struct MeshAtKey {
+    std::uint32_t mesh = 0, key = 0;
+  };
+  std::vector<MeshAtKey> work_from_;   // per work item
   std::vector<PlanBatch> work_batch_;  // per work item: its buffers
   std::vector<GpuRasterGroup> groups_;
   std::vector<PlanBatch> batches_;
-  std::uint32_t first_late_group_ = 0, picked_count_ = 0;
+  std::uint32_t first_late_group_ = 0;
+  std::uint64_t picked_count_ = 0, group_count_ = 0, late_group_count_ = 0;
   std::uint64_t triangle_count_ = 0, late_triangle_count_ = 0;
 };
 

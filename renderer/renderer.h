@@ -27,7 +27,7 @@ struct RendererOptions {
   std::shared_ptr<MemoryBudget> memory = {};  ///< given to several renderers: they keep the limit together
   std::uint64_t max_buffer_bytes = 128ull << 20;  ///< no buffer of a crowd grows beyond; more are made
   /// A buffer of the compute rasteriser's work: people whose work needs more are all the graphics pipeline's,
-  /// or refused. Every Vulkan device has such buffers, so that pictures don't depend on it.
+  /// or refused. How much work people are depends on the lanes of a subgroup, hence on the kind of device.
   std::uint64_t raster_work_bytes = 128ull << 20;
   /// Larger pictures are drawn tile by tile. These limits, not the device's, belong to what a picture is:
   /// where a tile begins decides how coordinates round, so that others move its last bits.

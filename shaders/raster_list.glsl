@@ -6,9 +6,9 @@
 // pixel that has something to do.
 
 // What is seen at the samples of a pixel. @return bits: at which of them it is in front
-uint openSamples(uint pixel, out uvec2 keys[kSamples]) {
+uint openSamples(uint pixel, uint width_of_rows, out uvec2 keys[kSamples]) {
   uint open = 0u;
-  ivec2 at = ivec2(pixel % width, pixel / width);
+  ivec2 at = ivec2(pixel % width_of_rows, pixel / width_of_rows);
   for (int i = 0; i < kSamples; ++i) {
     keys[i] = texelFetch(seen, int(pixel) * kSamples + i).xy;
     // At equal depth people come before ground and environment.
@@ -26,9 +26,9 @@ uint alikeSamples(uint open, uvec2 keys[kSamples]) {
   return alike;
 }
 
-uint entriesOf(uint pixel) {
+uint entriesOf(uint pixel, uint width_of_rows) {
   uvec2 keys[kSamples];
-  uint open = openSamples(pixel, keys);
+  uint open = openSamples(pixel, width_of_rows, keys);
   if (kSamples == 1) return open;
   uint entries = 0u;
   while (open != 0u) {
@@ -70,13 +70,14 @@ void listSamples(uint place, uint pixel, uint id, uint samples, inout BinRun run
 }
 
 void main() {
-  uint first = firstOfRun(), end = min(first + ENSEMBLE_LIST_RUN, pixel_count);
+  uint first = first_pixel + firstOfRun(), end = min(first + ENSEMBLE_LIST_RUN, first_pixel + pixel_count);
+  uint width_of_rows = width;
   uint open_pixels = 0u, entries = 0u;
-  [[dont_unroll]] for (uint number = first;; ++number) {
-    [[dont_unroll]] while (number < end && !isSeen(first_pixel + number)) ++number;
-    if (number >= end) break;
-    uint more = entriesOf(first_pixel + number);
-    open_pixels |= uint(more != 0u) << (number - first);
+  [[dont_unroll]] for (uint pixel = first;; ++pixel) {
+    [[dont_unroll]] while (pixel < end && !isSeen(pixel)) ++pixel;
+    if (pixel >= end) break;
+    uint more = entriesOf(pixel, width_of_rows);
+    open_pixels |= uint(more != 0u) << (pixel - first);
     entries += more;
   }
   if (entries == 0u) return;
@@ -84,9 +85,9 @@ void main() {
   uint place = atomicAdd(bins[bin_count].count, entries);
   BinRun run = BinRun(0u, 0u);
   [[dont_unroll]] for (; open_pixels != 0u; open_pixels &= open_pixels - 1u) {
-    uint pixel = first_pixel + first + uint(findLSB(open_pixels));
+    uint pixel = first + uint(findLSB(open_pixels));
     uvec2 keys[kSamples];
-    uint open = openSamples(pixel, keys);
+    uint open = openSamples(pixel, width_of_rows, keys);
     [[dont_unroll]] for (;;) {
       uint alike = alikeSamples(open, keys);
       listSamples(place++, pixel, ~keys[kSamples == 1 ? 0 : findLSB(open)].x, alike, run);

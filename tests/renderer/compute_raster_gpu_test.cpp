@@ -291,7 +291,30 @@ TEST_F(ComputeRasterTest, WorkThatFitsNoBufferIsRefusedOrDrawnByThePipeline) {
   const Picture automatic = drawScene(scene, viewWithAovs(scene), 0.0, small);
   scene.raster = RasterKind::kPipeline;
   EXPECT_EQ(automatic.stats.characters_computed, 0u);
+  EXPECT_EQ(automatic.stats.poses.skinned_vertices, 0u) << "nobody's pose was made in vain";
   testing::expectSamePixels(automatic, drawScene(scene, viewWithAovs(scene), 0.0, small));
+}
+
+TEST_F(ComputeRasterTest, OneTileThatDoesNotFitLeavesThePictureToThePipeline) {
+  Scene scene = crowdScene(RasterKind::kAuto, 60);
+  RendererOptions options{.tiles = {.side = 64, .pixels = 64 * 64}};
+  // The most that all tiles fit in, to a few hundred bytes; a little less, and one of them does not.
+  std::uint64_t low = 0, high = 1u << 20;
+  const auto computed = [&](std::uint64_t bytes) {
+    options.raster_work_bytes = bytes;
+    return drawScene(scene, viewOf(scene), 0.0, options).stats;
+  };
+  ASSERT_GT(computed(high).characters_computed, 0u);
+  while (high - low > 256) {
+    const std::uint64_t middle = (low + high) / 2;
+    (computed(middle).characters_computed > 0 ? high : low) = middle;
+  }
+  const FrameStats refused = computed(low);
+  EXPECT_EQ(refused.characters_computed, 0u);
+  EXPECT_EQ(refused.triangles_computed, 0u) << "no tile was drawn by compute before the one that is refused";
+  const Picture automatic = drawScene(scene, viewWithAovs(scene), 0.0, options);
+  scene.raster = RasterKind::kPipeline;
+  testing::expectSamePixels(automatic, drawScene(scene, viewWithAovs(scene), 0.0, options));
 }
 
 TEST_F(ComputeRasterTest, LargePicturesWithSeveralSamplesAreComputedInTiles) {

@@ -28,6 +28,17 @@ TEST(PoseCache, KeepsWhatWasAskedFor) {
   EXPECT_EQ(cache.stats().kept_vertices, 700u);
 }
 
+TEST(PoseCache, ForgetsAll) {
+  PoseCache cache({.budget_vertices = 1000, .buffer_vertices = 500});
+  cache.beginFrame();
+  for (const std::uint32_t pose : {1u, 2u, 3u}) cache.require(pose, 300);
+  cache.clear();
+  EXPECT_EQ(cache.stats().kept_vertices, 0u);
+  EXPECT_TRUE(cache.require(2, 300).is_new);
+  EXPECT_TRUE(cache.require(4, 500).is_new);
+  EXPECT_EQ(cache.bufferCount(), 3u) << "there was room";
+}
+
 TEST(PoseCache, WhatWasNotUsedForLongestGoesFirst) {
   PoseCache cache({.budget_vertices = 1000, .buffer_vertices = 1000});
   for (const std::uint32_t pose : {1u, 2u, 3u}) {

@@ -30,7 +30,8 @@ TEST(RasterPlan, EveryTriangleOfEveryoneOnce) {
   RasterPlan plan = smallPlan();
   EXPECT_EQ(plan.faceBits(), 5u) << "27 faces at most";
   const std::vector<PlanPerson> people = {{0, 2}, {1, 2}, {0, 1}, {0, 2}, {1, 0}};
-  plan.build(people, 4, plan.faceBits(), poseAt);
+  plan.arrange(people, 4, plan.faceBits());
+  plan.place(poseAt);
   std::set<std::tuple<std::uint32_t, std::uint32_t>> drawn;  // id and index of the triangle's first corner
   std::map<std::uint32_t, std::set<std::uint32_t>> poses_of_person;
   std::uint32_t groups = 0;
@@ -65,7 +66,8 @@ TEST(RasterPlan, PeopleOfOnePoseAreDrawnTogether) {
   RasterPlan plan = smallPlan();
   const std::vector<PlanPerson> people = {{0, 2}, {1, 2}, {0, 2}, {0, 1}};
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> asked;
-  plan.build(people, 4, plan.faceBits(), [&](std::uint32_t mesh, std::uint32_t key) {
+  plan.arrange(people, 4, plan.faceBits());
+  plan.place([&](std::uint32_t mesh, std::uint32_t key) {
     ++asked[{mesh, key}];
     return poseAt(mesh, key);
   });
@@ -83,7 +85,8 @@ TEST(RasterPlan, TheSecondRoundComesLast) {
   RasterPlan plan = smallPlan();
   const std::vector<PlanPerson> people = {
       {0, 2, true}, {1, 2, false}, {0, 1, true}, {0, 2, false}, {1, 0, true}};
-  plan.build(people, 4, plan.faceBits(), poseAt);
+  plan.arrange(people, 4, plan.faceBits());
+  plan.place(poseAt);
   ASSERT_TRUE(plan.hasSecondRound());
   std::uint64_t triangles = 0, entries = 0;
   std::set<std::pair<std::uint32_t, std::uint32_t>> picked;
@@ -110,14 +113,17 @@ TEST(RasterPlan, TheSecondRoundComesLast) {
   EXPECT_EQ(picked.rbegin()->first + 1, plan.entries().size() + plan.pickedCount());
   EXPECT_EQ(triangles, plan.lateTriangleCount());
   EXPECT_EQ(plan.triangleCount(), 3u * 27u + 2u * 20u);
-  plan.build({people.data(), 0}, 4, plan.faceBits(), poseAt);
+  plan.arrange({people.data(), 0}, 4, plan.faceBits());
+  plan.place(poseAt);
   EXPECT_FALSE(plan.hasSecondRound());
 }
 
 TEST(RasterPlan, NobodyIsNoWork) {
   RasterPlan plan = smallPlan();
-  plan.build(std::vector<PlanPerson>{{0, 1}}, 4, plan.faceBits(), poseAt);
-  plan.build({}, 4, plan.faceBits(), poseAt);
+  plan.arrange(std::vector<PlanPerson>{{0, 1}}, 4, plan.faceBits());
+  plan.place(poseAt);
+  plan.arrange({}, 4, plan.faceBits());
+  plan.place(poseAt);
   EXPECT_TRUE(plan.groups().empty());
   EXPECT_TRUE(plan.batches().empty());
   EXPECT_EQ(plan.triangleCount(), 0u);
