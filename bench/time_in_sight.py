@@ -16,7 +16,8 @@ import statistics
 import subprocess
 import sys
 
-COLUMNS = ("height", "in_sight", "frame_ms", "ms_per_1000", "cpu_ms", "triangles", "mesh_bytes", "pose_bytes")
+COLUMNS = ("height", "in_sight", "computed", "frame_ms", "ms_per_1000", "cpu_ms", "poses_ms", "shadows_ms", "triangles",
+           "mesh_bytes", "pose_bytes")
 LEAST_OF_LINE = 100  # below it a frame is mostly what it takes without people
 WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 760, 380, 90, 330, 40, 730
 STYLE = """:root { color-scheme: light dark;
@@ -31,11 +32,12 @@ svg { background: var(--page); font: 13px system-ui, sans-serif; } text { fill: 
 
 
 def measure(chosen, height):
-    """One process of the program: the row of its JSON, a few frames that go on."""
+    """One process of the program: the row of its JSON, a few frames that go on, drawn before once, so that poses are kept."""
     camera = {"position": [0, height, 1.3 * height], "target": [0, 0, 0], "fov_y": 40}
     settings = [f"camera={json.dumps(camera)}", *chosen.set]
     command = [chosen.ensemble, "bench", "-q", chosen.scene, "--techniques", "tagged", "--counts", chosen.count,
-               "--frames", f"0-{chosen.frames - 1}", "--rounds", chosen.frames, "--warm-up", 1, "--json", "-"]
+               "--frames", f"0-{chosen.frames - 1}", "--rounds", chosen.frames, "--warm-up", chosen.frames,
+               "--json", "-"]
     command += [part for setting in settings for part in ("--set", setting)]
     done = subprocess.run([str(part) for part in command], check=False, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
@@ -46,7 +48,12 @@ def measure(chosen, height):
 def line_of(height, rows):
     """A row of the table: medians over the rounds."""
     in_sight, time = rows[0]["characters_drawn"], statistics.median(row["frame_ms"]["median"] for row in rows)
-    return {"height": height, "in_sight": in_sight, "frame_ms": round(time, 1),
+
+    def part(name):
+        return round(statistics.median(row["parts_ms"][name] for row in rows), 1)
+
+    return {"height": height, "in_sight": in_sight, "computed": rows[0]["share_of_people_computed"],
+            "frame_ms": round(time, 1), "poses_ms": part("poses"), "shadows_ms": part("shadows"),
             "ms_per_1000": round(1000 * time / max(1, in_sight), 1),
             "cpu_ms": round(statistics.median(row["cpu_ms"] for row in rows), 1), "triangles": rows[0]["triangles"],
             "mesh_bytes": rows[0]["gpu_mesh_bytes"], "pose_bytes": max(row["pose_bytes"] for row in rows)}

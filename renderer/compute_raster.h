@@ -91,8 +91,9 @@ class ComputeRaster {
   void beginFrame() { poses_.beginFrame(); }
   /// Arranges an eye's work; asks for no pose yet. @param numbers of people in the crowd, ascending
   /// @return whether the work fits the device's buffers; if not, there is none
-  [[nodiscard]] bool arrange(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,
-                             std::span<const std::uint32_t> numbers, const Occlusion& occlusion);
+  [[nodiscard]] bool arrange(Eye eye, const ScreenRows& rows, const CrowdState& state,
+                             const ViewPeople& shown, std::span<const std::uint32_t> numbers,
+                             const Occlusion& occlusion);
   /// Plans what was arranged, of the same people: asks for their poses, and tells the device. Who is between
   /// key frames has its palette queued.
   void plan(Eye eye, const ScreenRows& rows, const CrowdState& state, const ViewPeople& shown,

@@ -198,10 +198,10 @@ void main() {
 
   Target target = Target(ivec2(width, height), near_plane);
 
-  uint first_entry = 0u;
+  uint first_entry = 0u, bits_of_face = face_bits;
   [[dont_unroll]] for (;;) {
     uint entry = entries[group.first_entry + min(first_entry + lane, group.entry_count - 1u)];
-    int rank = int(entry >> face_bits), person = rank * ENSEMBLE_PERSON_TEXELS;
+    int rank = int(entry >> bits_of_face), person = rank * ENSEMBLE_PERSON_TEXELS;
     vec4 rows[3] = vec4[3](texelFetch(people, person), texelFetch(people, person + 1), texelFetch(people, person + 2));
     uint first_word = kHideFaces ? hidden_first[texelFetch(who, rank).x] : 0u;
     uint people_count = min(group.entry_count - first_entry, lanes);

@@ -54,12 +54,13 @@ void countRun(BinRun run) {
   if (run.count != 0u) atomicAdd(bins[run.bin].count, run.count);
 }
 
-void listSamples(uint place, uint pixel, uint id, uint samples, inout BinRun run) {
-  uvec4 person = texelFetch(who, int(id >> face_bits));
-  uvec3 item = itemOfFace(person.x, id & ((1u << face_bits) - 1u));
+void listSamples(uint place, uint pixel, uint id, uint samples, uint bits_of_face, uint bins_of_poses,
+                 inout BinRun run) {
+  uvec4 person = texelFetch(who, int(id >> bits_of_face));
+  uvec3 item = itemOfFace(person.x, id & ((1u << bits_of_face) - 1u));
   uvec4 first = texelFetch(items, int(item.x * ENSEMBLE_RASTER_ITEM_TEXELS));
   uint pose = poseOf(person, item, first.z);
-  uint of_bin = first.w + (pose >> ENSEMBLE_POSE_OFFSET_BITS) * bin;  // `bin`: bins of one buffer of poses
+  uint of_bin = first.w + (pose >> ENSEMBLE_POSE_OFFSET_BITS) * bins_of_poses;
   pixels[place] = uvec4(pixel | samples << ENSEMBLE_LISTED_PIXEL_BITS, item.x | of_bin << ENSEMBLE_LISTED_ITEM_BITS,
                         id - item.y, pose & ((1u << ENSEMBLE_POSE_OFFSET_BITS) - 1u));
   if (of_bin != run.bin) {
@@ -83,6 +84,7 @@ void main() {
   if (entries == 0u) return;
 
   uint place = atomicAdd(bins[bin_count].count, entries);
+  uint bits_of_face = face_bits, bins_of_poses = bin;
   BinRun run = BinRun(0u, 0u);
   [[dont_unroll]] for (; open_pixels != 0u; open_pixels &= open_pixels - 1u) {
     uint pixel = first + uint(findLSB(open_pixels));
@@ -90,7 +92,7 @@ void main() {
     uint open = openSamples(pixel, width_of_rows, keys);
     [[dont_unroll]] for (;;) {
       uint alike = alikeSamples(open, keys);
-      listSamples(place++, pixel, ~keys[kSamples == 1 ? 0 : findLSB(open)].x, alike, run);
+      listSamples(place++, pixel, ~keys[kSamples == 1 ? 0 : findLSB(open)].x, alike, bits_of_face, bins_of_poses, run);
       open &= ~alike;
       if (open == 0u) break;
     }
