@@ -11,19 +11,26 @@ constexpr std::uint32_t kPosesOfClip = 12;
 
 }  // namespace
 
-std::vector<PosedBody> poseInClips(const TemplateBody& body, const BodySurface& surface) {
-  std::vector<PosedBody> poses;
+std::vector<std::vector<Mat4>> matricesInClips(const TemplateBody& body) {
+  std::vector<std::vector<Mat4>> poses;
   for (const Clip& clip : body.clips) {
     const std::uint32_t count = std::min(kPosesOfClip, clip.key_count);
     for (std::uint32_t i = 0; i < count; ++i) {
       const float key =
           static_cast<float>(clip.key_count - 1) * static_cast<float>(i) / static_cast<float>(count);
-      PosedBody posed;
-      posed.skinning_matrices = skinningMatricesAt(body.skeleton, clip, key);
-      for (const std::uint32_t source : surface.source())
-        posed.positions.push_back(skinPosition(body.vertices[VertexId(source)], posed.skinning_matrices));
-      poses.push_back(std::move(posed));
+      poses.push_back(skinningMatricesAt(body.skeleton, clip, key));
     }
+  }
+  return poses;
+}
+
+std::vector<PosedBody> poseInClips(const TemplateBody& body, const BodySurface& surface) {
+  std::vector<PosedBody> poses;
+  for (std::vector<Mat4>& matrices : matricesInClips(body)) {
+    PosedBody posed{.skinning_matrices = std::move(matrices), .positions = {}};
+    for (const std::uint32_t source : surface.source())
+      posed.positions.push_back(skinPosition(body.vertices[VertexId(source)], posed.skinning_matrices));
+    poses.push_back(std::move(posed));
   }
   return poses;
 }

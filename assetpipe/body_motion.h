@@ -15,7 +15,11 @@ struct PosedBody {
   std::vector<Vec3> positions;          ///< of the surface's vertices, #V
 };
 
-/// Poses evenly over the time of each clip of the template; none where it has no clips.
+/// Skinning matrices, #joints, of poses evenly over the time of each clip of the template; none where it has
+/// no clips.
+std::vector<std::vector<Mat4>> matricesInClips(const TemplateBody& body);
+
+/// The surface in these poses.
 std::vector<PosedBody> poseInClips(const TemplateBody& body, const BodySurface& surface);
 
 /// A mesh's vertices in one pose. @param skins what moves each @return as many

@@ -1,6 +1,5 @@
-// Half-edge collapse with quadric error metrics: M. Garland and P. Heckbert, "Surface Simplification
-// Using Quadric Error Metrics", SIGGRAPH 1997. Departures: a vertex only moves onto a neighbour (so that
-// it stays on the surface), and long edges cost something (so that limbs get rings, not splinters).
+// Half-edge collapse with quadric error metrics (quadric.h). Departures: a vertex only moves onto a neighbour
+// (so that it stays on the surface), and long edges cost something (so that limbs get rings, not splinters).
 #include "assetpipe/simplify_surface.h"
 
 #include <algorithm>
@@ -13,41 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "assetpipe/quadric.h"
 #include "core/check.h"
 
 namespace ensemble {
 namespace {
 
 using Vec3d = glm::dvec3;
-
-/// Sum of squared distances to planes, weighted: x^T A x + 2 b x + c.
-struct Quadric {
-  std::array<double, 6> a{};
-  Vec3d b{0.0};
-  double c = 0.0;
-
-  void addPlane(const Vec3d& normal, const Vec3d& point, double weight) {
-    const double d = -glm::dot(normal, point);
-    a[0] += weight * normal.x * normal.x;
-    a[1] += weight * normal.x * normal.y;
-    a[2] += weight * normal.x * normal.z;
-    a[3] += weight * normal.y * normal.y;
-    a[4] += weight * normal.y * normal.z;
-    a[5] += weight * normal.z * normal.z;
-    b += normal * (d * weight);
-    c += d * d * weight;
-  }
-  void add(const Quadric& other) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += other.a[i];
-    b += other.b;
-    c += other.c;
-  }
-  double at(const Vec3d& p) const {
-    const double value = a[0] * p.x * p.x + 2 * a[1] * p.x * p.y + 2 * a[2] * p.x * p.z + a[3] * p.y * p.y +
-                         2 * a[4] * p.y * p.z + a[5] * p.z * p.z + 2 * glm::dot(b, p) + c;
-    return std::max(value, 0.0);
-  }
-};
 
 /// Vertices that are more important than this stay where the collapses left them: on the features.
 constexpr double kKeepPlace = 4.0;
