@@ -58,12 +58,14 @@ class Orderer {
         position_count_(mesh.poses.front().size()),
         faces_(mesh.faces),
         faces_of_(position_count_),
+        wedges_of_(position_count_),
         quadrics_(mesh.poses.size() * position_count_),
         band_(position_count_, 0),
         is_locked_(position_count_, 0),
         is_queued_(position_count_, 0) {
     target_.resize(mesh.position_of_vertex.size());
     std::iota(target_.begin(), target_.end(), 0u);
+    for (const std::uint32_t wedge : target_) wedges_of_[at(wedge)].push_back(wedge);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       if (!isAlive(f)) continue;
       for (const std::uint32_t vertex : faces_[f]) faces_of_[at(vertex)].push_back(f);
@@ -296,6 +298,8 @@ class Orderer {
   void apply(const Candidate& collapse, std::uint32_t number) {
     const std::uint32_t from = collapse.from, to = collapse.to;
     ENSEMBLE_CHECK(findWedges(from, to));
+    // Wedges whose faces have all gone follow the others.
+    for (const std::uint32_t wedge : wedges_of_[from]) target_[wedge] = wedges_.front().second;
     for (const auto& [wedge, onto] : wedges_) target_[wedge] = onto;
     band_[from] = number;
     is_locked_[to] = 1;
@@ -318,11 +322,12 @@ class Orderer {
   const CollapseMesh& mesh_;
   const CollapseOptions& options_;
   std::size_t position_count_, shown_ = 0;
-  std::vector<Triangle> faces_;                       // as they are by now
-  std::vector<std::vector<std::uint32_t>> faces_of_;  // per position
-  std::vector<Quadric> quadrics_;                     // per pose and position
-  std::vector<std::uint32_t> target_;                 // per vertex
-  std::vector<std::uint32_t> band_;                   // per position, 1 the finest; 0: stays
+  std::vector<Triangle> faces_;                        // as they are by now
+  std::vector<std::vector<std::uint32_t>> faces_of_;   // per position
+  std::vector<std::vector<std::uint32_t>> wedges_of_;  // per position
+  std::vector<Quadric> quadrics_;                      // per pose and position
+  std::vector<std::uint32_t> target_;                  // per vertex
+  std::vector<std::uint32_t> band_;                    // per position, 1 the finest; 0: stays
   std::vector<std::uint8_t> is_locked_, is_queued_;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
   std::vector<std::uint32_t> around_, other_, touched_;  // scratch
