@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "assetpipe/quadric.h"
 #include "core/check.h"
 #include "core/clip.h"
+#include "core/collapse.h"
 
 namespace ensemble {
 namespace {
@@ -60,12 +60,12 @@ class Orderer {
         faces_of_(position_count_),
         wedges_of_(position_count_),
         quadrics_(mesh.poses.size() * position_count_),
-        band_(position_count_, 0),
         is_locked_(position_count_, 0),
         is_queued_(position_count_, 0) {
-    target_.resize(mesh.position_of_vertex.size());
-    std::iota(target_.begin(), target_.end(), 0u);
-    for (const std::uint32_t wedge : target_) wedges_of_[at(wedge)].push_back(wedge);
+    for (std::uint32_t wedge = 0; wedge < mesh.position_of_vertex.size(); ++wedge) {
+      collapses_.push_back({wedge, 0});
+      wedges_of_[at(wedge)].push_back(wedge);
+    }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       if (!isAlive(f)) continue;
       for (const std::uint32_t vertex : faces_[f]) faces_of_[at(vertex)].push_back(f);
@@ -75,23 +75,40 @@ class Orderer {
     sumQuadrics();
   }
 
-  CollapseOrder run() {
-    // Bands are made fine to coarse and numbered when it is known how many there are.
+  std::vector<VertexCollapse> run() {
     const std::uint32_t steps = std::max(options_.levels, 1u) - 1;
     const double share = std::clamp(double{options_.coarsest_share}, 1e-6, 1.0);
     const double all = static_cast<double>(shown_);
     std::uint32_t made = 0;
     for (std::uint32_t step = 1; step <= steps; ++step) {
       const double left = all * std::pow(share, static_cast<double>(step) / steps);
-      if (makeBand(made + 1, static_cast<std::size_t>(std::ceil(left)))) ++made;
+      if (makeLevel(made + 1, static_cast<std::size_t>(std::ceil(left)))) ++made;
     }
-    CollapseOrder order{.target = std::move(target_), .band = {}, .levels = made + 1};
-    for (const std::uint32_t position : mesh_.position_of_vertex)
-      order.band.push_back(static_cast<std::uint8_t>(band_[position] == 0 ? 0 : made + 1 - band_[position]));
-    return order;
+    goWithLastFaces(made);
+    return std::move(collapses_);
   }
 
  private:
+  /// Wedges that no face shows any more are not kept for their position's sake.
+  void goWithLastFaces(std::uint32_t coarsest) {
+    std::vector<std::uint32_t> first_unused(collapses_.size(), 1);
+    for (std::uint32_t level = 1; level <= coarsest; ++level) {
+      const auto position_of = [&](std::uint32_t vertex) { return at(vertex); };
+      for (const Triangle& face :
+           facesAtLevel(mesh_.faces, verticesAtLevel(collapses_, level), position_of)) {
+        for (const std::uint32_t vertex : face) first_unused[vertex] = level + 1;
+      }
+    }
+    for (std::uint32_t vertex = 0; vertex < collapses_.size(); ++vertex) {
+      if (first_unused[vertex] <= coarsest && isShownAt(collapses_[vertex], first_unused[vertex]))
+        collapses_[vertex] = {vertex, static_cast<std::uint8_t>(first_unused[vertex])};
+    }
+    for (std::uint32_t vertex = 0; vertex < collapses_.size(); ++vertex) {
+      VertexCollapse& collapse = collapses_[vertex];
+      if (!isShownAt(collapses_[collapse.target], collapse.level)) collapse.target = vertex;
+    }
+  }
+
   std::uint32_t at(std::uint32_t vertex) const { return mesh_.position_of_vertex[vertex]; }
   bool isAlive(std::uint32_t f) const {
     const Triangle& face = faces_[f];
@@ -268,9 +285,9 @@ class Orderer {
     queue_.push(best);
   }
 
-  /// Collapses until as many positions are left; those that others moved onto wait for the next band.
+  /// Collapses until as many positions are left; those that others moved onto outlast the level.
   /// @return whether any went
-  bool makeBand(std::uint32_t number, std::size_t left) {
+  bool makeLevel(std::uint32_t level, std::size_t left) {
     std::fill(is_locked_.begin(), is_locked_.end(), std::uint8_t{0});
     std::fill(is_queued_.begin(), is_queued_.end(), std::uint8_t{0});
     queue_ = {};
@@ -288,20 +305,20 @@ class Orderer {
         queue_.push(best);
         continue;
       }
-      apply(best, number);
+      apply(best, level);
       neighbours(best.to, touched_);
       for (const std::uint32_t position : touched_) enqueue(position);
     }
     return shown_ < before;
   }
 
-  void apply(const Candidate& collapse, std::uint32_t number) {
+  void apply(const Candidate& collapse, std::uint32_t level) {
     const std::uint32_t from = collapse.from, to = collapse.to;
     ENSEMBLE_CHECK(findWedges(from, to));
-    // Wedges whose faces have all gone follow the others.
-    for (const std::uint32_t wedge : wedges_of_[from]) target_[wedge] = wedges_.front().second;
-    for (const auto& [wedge, onto] : wedges_) target_[wedge] = onto;
-    band_[from] = number;
+    // Wedges whose faces have all gone move too, until goWithLastFaces.
+    for (const std::uint32_t wedge : wedges_of_[from])
+      collapses_[wedge] = {wedges_.front().second, static_cast<std::uint8_t>(level)};
+    for (const auto& [wedge, onto] : wedges_) collapses_[wedge].target = onto;
     is_locked_[to] = 1;
     --shown_;
     for (std::size_t pose = 0; pose < mesh_.poses.size(); ++pose) quadric(pose, to).add(quadric(pose, from));
@@ -312,7 +329,7 @@ class Orderer {
         }
       } else {
         std::uint32_t& wedge = *std::find(faces_[f].begin(), faces_[f].end(), wedgeIn(f, from));
-        wedge = target_[wedge];
+        wedge = collapses_[wedge].target;
         faces_of_[to].push_back(f);
       }
     }
@@ -326,8 +343,7 @@ class Orderer {
   std::vector<std::vector<std::uint32_t>> faces_of_;   // per position
   std::vector<std::vector<std::uint32_t>> wedges_of_;  // per position
   std::vector<Quadric> quadrics_;                      // per pose and position
-  std::vector<std::uint32_t> target_;                  // per vertex
-  std::vector<std::uint32_t> band_;                    // per position, 1 the finest; 0: stays
+  std::vector<VertexCollapse> collapses_;              // per vertex
   std::vector<std::uint8_t> is_locked_, is_queued_;
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
   std::vector<std::uint32_t> around_, other_, touched_;  // scratch
@@ -359,33 +375,10 @@ CollapseMesh makeCollapseMesh(std::span<const RawVertex> vertices, std::span<con
   return mesh;
 }
 
-CollapseOrder findCollapseOrder(const CollapseMesh& mesh, const CollapseOptions& options) {
+std::vector<VertexCollapse> findCollapseOrder(const CollapseMesh& mesh, const CollapseOptions& options) {
   ENSEMBLE_CHECK(!mesh.poses.empty());
   ENSEMBLE_CHECK(options.levels <= 255u);
   return Orderer(mesh, options).run();
-}
-
-std::vector<std::uint32_t> verticesAtLevel(const CollapseOrder& order, std::uint32_t level) {
-  std::vector<std::uint32_t> shown(order.target.size());
-  for (std::uint32_t vertex = 0; vertex < shown.size(); ++vertex) {
-    std::uint32_t at = vertex;
-    while (order.band[at] > level) at = order.target[at];
-    shown[vertex] = at;
-  }
-  return shown;
-}
-
-std::vector<Triangle> facesAtLevel(const CollapseOrder& order,
-                                   std::span<const std::uint32_t> position_of_vertex,
-                                   std::span<const Triangle> faces, std::uint32_t level) {
-  const std::vector<std::uint32_t> shown = verticesAtLevel(order, level);
-  std::vector<Triangle> left;
-  for (const Triangle& face : faces) {
-    const Triangle moved = {shown[face[0]], shown[face[1]], shown[face[2]]};
-    const auto at = [&](int corner) { return position_of_vertex[moved[corner]]; };
-    if (at(0) != at(1) && at(1) != at(2) && at(2) != at(0)) left.push_back(moved);
-  }
-  return left;
 }
 
 }  // namespace ensemble

@@ -1,5 +1,5 @@
-// The order in which a mesh's vertices go as it gets coarser, one by one, each onto a neighbour: levels of
-// detail without new vertices (Dong and Peng, "Character creation", the order stored as an array).
+// The order in which a mesh's vertices go as it gets coarser, one by one, each onto a neighbour
+// (core/collapse.h).
 //
 // Topology lives on positions, attributes on wedges (design 2): all wedges of a position go together, each
 // onto the wedge of the neighbour that continues its side. So what parts wedges (UV seams, regions,
@@ -29,7 +29,7 @@ CollapseMesh makeCollapseMesh(std::span<const RawVertex> vertices, std::span<con
                               std::span<const std::vector<Mat4>> poses);
 
 struct CollapseOptions {
-  std::uint32_t levels = 12;     ///< at most; the finest shows all
+  std::uint32_t levels = 12;     ///< at most; level 0 shows all
   float coarsest_share = 0.04f;  ///< of the positions, in the coarsest level, where the mesh allows it
   /// Keeps triangles compact: an edge of length L counts like an error of this much L.
   float compactness = 0.02f;
@@ -38,27 +38,11 @@ struct CollapseOptions {
   float skin_weight = 0.1f;
 };
 
-/// Bands of vertices, coarse to fine: level l shows bands 0 to l, and the last level all.
-struct CollapseOrder {
-  /// Per vertex the one that it moves onto, always of a coarser band; itself where it never goes. So within
-  /// a band any order is valid.
-  std::vector<std::uint32_t> target;
-  std::vector<std::uint8_t> band;  ///< per vertex
-  std::uint32_t levels = 1;
-};
-
-/// Collapses what costs least over all poses first. What can't go stays: corners of seams, edges of more than
-/// two faces, meshes of a few triangles. Never fails, whatever the mesh is; deterministic.
-/// @pre indices are valid; poses have one size
-CollapseOrder findCollapseOrder(const CollapseMesh& mesh, const CollapseOptions& options);
-
-/// Where a level shows each vertex: one of its own bands.
-std::vector<std::uint32_t> verticesAtLevel(const CollapseOrder& order, std::uint32_t level);
-
-/// The faces that are left at a level, with the vertices that it shows, in the order given.
-/// @param position_of_vertex as in CollapseMesh: faces that have two corners in one place are gone
-std::vector<Triangle> facesAtLevel(const CollapseOrder& order,
-                                   std::span<const std::uint32_t> position_of_vertex,
-                                   std::span<const Triangle> faces, std::uint32_t level);
+/// When each vertex goes, and where to (core/collapse.h): what costs least over all poses goes first. All of
+/// one level can go in any order, since their targets outlast the level. What can't go stays: corners of
+/// seams, edges of more than two faces, meshes of a few triangles. Never fails, whatever the mesh is;
+/// deterministic.
+/// @pre indices are valid; poses have one size @return #V
+std::vector<VertexCollapse> findCollapseOrder(const CollapseMesh& mesh, const CollapseOptions& options);
 
 }  // namespace ensemble

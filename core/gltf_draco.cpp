@@ -169,6 +169,12 @@ std::map<std::string, std::uint32_t> addAttributes(const RawPrimitive& primitive
     const std::vector<float> numbers(primitive.template_vertices.begin(), primitive.template_vertices.end());
     ids.insert(floats("_TEMPLATE_VERTEX", Attribute::GENERIC, numbers));
   }
+  if (layout.collapses && layout.wide_collapses) {
+    ids.insert(floats("_COLLAPSE", Attribute::GENERIC, collapseValues<float>(primitive)));
+  } else if (layout.collapses) {
+    ids["_COLLAPSE"] = addAttribute<std::uint16_t>(mesh, Attribute::GENERIC, draco::DT_UINT16,
+                                                   collapseValues<std::uint16_t>(primitive));
+  }
   return ids;
 }
 

@@ -54,7 +54,18 @@ struct PrimitiveLayout {
   bool skin = false;
   bool wide_joints = false;  ///< 16-bit joint numbers
   bool template_vertices = false;
+  bool collapses = false;
+  bool wide_collapses = false;  ///< targets beyond 16 bits
 };
+
+/// `_COLLAPSE` as a file holds it: target and level of each vertex, #V x 2.
+template <class T>
+std::vector<T> collapseValues(const RawPrimitive& primitive) {
+  std::vector<T> values;
+  for (const VertexCollapse& collapse : primitive.collapses)
+    values.insert(values.end(), {static_cast<T>(collapse.target), static_cast<T>(collapse.level)});
+  return values;
+}
 
 /// @pre the primitive has faces and its indices are in range.
 DracoData encodeDraco(const RawPrimitive& primitive, const PrimitiveLayout& layout,

@@ -24,10 +24,12 @@ enum class ViewKind {
   kJoints,
   kWeights,
   kTemplateVertex,
+  kCollapse,
+  kWideCollapse,
   kInverseBind,
   kAnimation,
 };
-inline constexpr std::size_t kViewKindCount = 9;
+inline constexpr std::size_t kViewKindCount = 11;
 
 /// What an accessor says of its numbers.
 struct AccessorShape {

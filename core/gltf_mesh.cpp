@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/collapse.h"
 #include "core/gltf_accessor.h"
 #include "core/gltf_draco.h"
 #include "core/gltf_weld.h"
@@ -170,6 +171,24 @@ void readTemplateVertices(const PrimitiveSource& source, RawPrimitive& primitive
   }
 }
 
+void readCollapses(const PrimitiveSource& source, RawPrimitive& primitive) {
+  if (!source.has("_COLLAPSE")) return;
+  const std::vector<float> numbers = source.floats("_COLLAPSE", 2);
+  for (std::size_t i = 0; i < primitive.vertices.size(); ++i) {
+    const float target = numbers[i * 2], level = numbers[i * 2 + 1];
+    const bool is_whole = std::floor(target) == target && std::floor(level) == level;
+    if (!is_whole || target < 0.0f || target > 16777216.0f || level < 0.0f || level > 255.0f) {
+      source.attribute("_COLLAPSE")
+          .fail(fmt::format("vertex {} can't go to {} at level {}", i, target, level),
+                "tag the outfit again");
+    }
+    primitive.collapses.push_back({static_cast<std::uint32_t>(target), static_cast<std::uint8_t>(level)});
+  }
+  if (!areValid(primitive.collapses))
+    source.attribute("_COLLAPSE")
+        .fail("a vertex goes to one that does not outlast it", "tag the outfit again");
+}
+
 void readHide(const PrimitiveSource& source, RawPrimitive& primitive) {
   if (source.has("_HIDE")) primitive.hide = source.floats("_HIDE", 1);
 }
@@ -248,7 +267,8 @@ void noteDropped(const PrimitiveSource& source, const JsonRef& json, const std::
       dropped.add("tangents");
     } else if (name.starts_with("COLOR_")) {
       dropped.add(fmt::format("vertex colours of node '{}'", node));
-    } else if (name.starts_with("_") && name != "_TEMPLATE_VERTEX" && name != "_HIDE") {
+    } else if (name.starts_with("_") && name != "_TEMPLATE_VERTEX" && name != "_HIDE" &&
+               name != "_COLLAPSE") {
       dropped.add(fmt::format("attribute '{}'", name));
     }
   }
@@ -273,6 +293,7 @@ void readVertices(const PrimitiveSource& source, const GltfMaterial& material, R
   readUvs(source, material, primitive.vertices);
   readTemplateVertices(source, primitive);
   readHide(source, primitive);
+  readCollapses(source, primitive);
 }
 
 }  // namespace

@@ -162,7 +162,7 @@ void weld(RawPrimitive& primitive) {
     if (used[i]) first_of[i] = *distinct.insert(i).first;
   }
   std::vector<std::uint32_t> new_number(vertices.size(), kUnused);
-  RawPrimitive welded{primitive.material, {}, std::move(primitive.faces), {}, {}};
+  RawPrimitive welded{primitive.material, {}, std::move(primitive.faces), {}, {}, {}};
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     if (first_of[i] == kUnused) continue;
     if (first_of[i] == i) {

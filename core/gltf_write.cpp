@@ -182,6 +182,8 @@ class GlbWriter {
     layout.skin = skinned;
     layout.wide_joints = asset_.skeleton.joints.size() > 256;
     layout.template_vertices = !primitive.template_vertices.empty();
+    layout.collapses = !primitive.collapses.empty();
+    layout.wide_collapses = primitive.vertices.size() > 65536;
     return layout;
   }
 
@@ -216,6 +218,7 @@ class GlbWriter {
     }
     ENSEMBLE_CHECK(primitive.template_vertices.empty() ||
                    primitive.template_vertices.size() == primitive.vertices.size());
+    ENSEMBLE_CHECK(primitive.collapses.empty() || primitive.collapses.size() == primitive.vertices.size());
     if (!skinned) return;
     for (const RawVertex& vertex : primitive.vertices) {
       for (const std::uint16_t joint : vertex.skin.joints)
@@ -258,6 +261,17 @@ class GlbWriter {
       attributes["_TEMPLATE_VERTEX"] =
           builder_.addAccessor<float>(ViewKind::kTemplateVertex, numbers, numbers.size(), {"SCALAR"});
     }
+    if (layout.collapses) {
+      attributes["_COLLAPSE"] = layout.wide_collapses ? addCollapses<float>(primitive, kFloat)
+                                                      : addCollapses<std::uint16_t>(primitive, kUint16);
+    }
+  }
+
+  template <class T>
+  std::size_t addCollapses(const RawPrimitive& primitive, int component_type) {
+    const std::vector<T> values = collapseValues<T>(primitive);
+    return builder_.addAccessor<T>(sizeof(T) == 2 ? ViewKind::kCollapse : ViewKind::kWideCollapse, values,
+                                   primitive.vertices.size(), {"VEC2", component_type});
   }
 
   void addBindings(const RawPrimitive& primitive, const PrimitiveLayout& layout, Json& attributes) {
@@ -302,6 +316,7 @@ class GlbWriter {
       if (name == "POSITION" || name == "NORMAL") shape.type = "VEC3";
       if (name == "TEXCOORD_0") shape.type = "VEC2";
       if (name == "_TEMPLATE_VERTEX") shape.type = "SCALAR";
+      if (name == "_COLLAPSE") shape = {"VEC2", layout.wide_collapses ? kFloat : kUint16};
       if (name == "JOINTS_0") shape.component_type = layout.wide_joints ? kUint16 : kUint8;
       const std::size_t accessor = builder_.addEmptyAccessor(primitive.vertices.size(), shape);
       if (name == "POSITION") {

@@ -34,6 +34,13 @@ struct RawVertex {
 
 using Triangle = std::array<std::uint32_t, 3>;  ///< corner indices, counter-clockwise seen from outside
 
+/// Where a vertex goes as its mesh gets coarser (collapse.h).
+struct VertexCollapse {
+  std::uint32_t target = 0;  ///< the vertex that it moves onto; itself: its faces have all gone, or it stays
+  std::uint8_t level = 0;    ///< the first level of detail without it, from 1 (0 shows all); 0: it never goes
+  bool operator==(const VertexCollapse&) const = default;
+};
+
 /// Triangles of one material.
 struct RawPrimitive {
   std::uint32_t material = 0;  ///< index into RawAsset::materials, always valid
@@ -44,6 +51,8 @@ struct RawPrimitive {
   /// `_HIDE` of each vertex, #V, or empty: where all corners of a body face have more than 0.5, it is hidden,
   /// where all have less than -0.5, it is kept. Read, never written.
   std::vector<float> hide;
+  /// `_COLLAPSE` of each vertex, #V, or empty where the mesh has no levels.
+  std::vector<VertexCollapse> collapses;
   bool operator==(const RawPrimitive&) const = default;
 };
 

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "core/collapse.h"
+
 namespace ensemble {
 namespace {
 
@@ -100,8 +102,11 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> bordersOf(const CollapseMesh& 
   return borders;
 }
 
-std::vector<Triangle> at(const CollapseOrder& order, const CollapseMesh& mesh, std::uint32_t level) {
-  return facesAtLevel(order, mesh.position_of_vertex, mesh.faces, level);
+using Collapses = std::vector<VertexCollapse>;
+
+std::vector<Triangle> at(const Collapses& order, const CollapseMesh& mesh, std::uint32_t level) {
+  return facesAtLevel(mesh.faces, verticesAtLevel(order, level),
+                      [&](std::uint32_t vertex) { return mesh.position_of_vertex[vertex]; });
 }
 
 std::set<std::uint32_t> positionsOf(const CollapseMesh& mesh, const std::vector<Triangle>& faces) {
@@ -114,27 +119,21 @@ std::set<std::uint32_t> positionsOf(const CollapseMesh& mesh, const std::vector<
 
 TEST(CollapseOrder, LevelsShrinkByAShareAndTargetsAreCoarser) {
   const CollapseMesh mesh = tube(40, 24, true);
-  const CollapseOrder order = findCollapseOrder(mesh, {.levels = 8, .coarsest_share = 0.05f});
-  ASSERT_EQ(order.levels, 8u);
-  EXPECT_EQ(at(order, mesh, 7), mesh.faces);
+  const Collapses order = findCollapseOrder(mesh, {.levels = 8, .coarsest_share = 0.05f});
+  ASSERT_EQ(levelCount(order), 8u);
+  EXPECT_EQ(at(order, mesh, 0), mesh.faces);
   const double all = static_cast<double>(mesh.poses[0].size());
   for (std::uint32_t level = 0; level < 8; ++level) {
     const auto shown = static_cast<double>(positionsOf(mesh, at(order, mesh, level)).size());
-    EXPECT_NEAR(shown, all * std::pow(0.05, (7.0 - level) / 7.0), 1.0) << level;
+    EXPECT_NEAR(shown, all * std::pow(0.05, level / 7.0), 1.0) << level;
   }
-  for (std::uint32_t v = 0; v < order.target.size(); ++v) {
-    if (order.band[v] == 0) {
-      EXPECT_EQ(order.target[v], v);
-    } else {
-      EXPECT_LT(order.band[order.target[v]], order.band[v]) << "a target outlasts the whole band";
-    }
-  }
+  EXPECT_TRUE(areValid(order)) << "a target outlasts the whole level";
 }
 
 TEST(CollapseOrder, AClosedSurfaceStaysClosed) {
   const CollapseMesh mesh = tube(30, 16, true);
-  const CollapseOrder order = findCollapseOrder(mesh, {.levels = 10, .coarsest_share = 0.02f});
-  for (std::uint32_t level = 0; level < order.levels; ++level) {
+  const Collapses order = findCollapseOrder(mesh, {.levels = 10, .coarsest_share = 0.02f});
+  for (std::uint32_t level = 0; level < levelCount(order); ++level) {
     const std::vector<Triangle> faces = at(order, mesh, level);
     EXPECT_THAT(bordersOf(mesh, faces), IsEmpty()) << level;
     EXPECT_EQ(faces.size(), 2 * positionsOf(mesh, faces).size() - 4) << "Euler's formula, level " << level;
@@ -144,9 +143,9 @@ TEST(CollapseOrder, AClosedSurfaceStaysClosed) {
 TEST(CollapseOrder, SeamsBordersAndRegionsGetCoarserAlikeOnBothSides) {
   CollapseMesh mesh = tube(41, 24, false);
   const std::vector<std::uint32_t> parts = splitWedges(mesh, 24);
-  const CollapseOrder order = findCollapseOrder(mesh, {.levels = 9, .coarsest_share = 0.05f});
-  ASSERT_GT(order.levels, 4u);
-  for (std::uint32_t level = 0; level < order.levels; ++level) {
+  const Collapses order = findCollapseOrder(mesh, {.levels = 9, .coarsest_share = 0.05f});
+  ASSERT_GT(levelCount(order), 4u);
+  for (std::uint32_t level = 0; level < levelCount(order); ++level) {
     const std::vector<Triangle> faces = at(order, mesh, level);
     for (const auto& [from, to] : bordersOf(mesh, faces)) {
       EXPECT_EQ(mesh.poses[0][from].x, mesh.poses[0][to].x) << "a crack, level " << level;
@@ -183,9 +182,9 @@ TEST(CollapseOrder, WhatBendsInAPoseKeepsItsRings) {
                                       std::sin(angle) * (p.x - 0.5f) + std::cos(angle) * p.y, p.z);
   }
   const auto around_the_bend = [](const CollapseMesh& mesh) {
-    const CollapseOrder order = findCollapseOrder(mesh, {.levels = 6, .coarsest_share = 0.15f});
+    const Collapses order = findCollapseOrder(mesh, {.levels = 6, .coarsest_share = 0.15f});
     std::size_t count = 0;
-    for (const std::uint32_t p : positionsOf(mesh, at(order, mesh, 0)))
+    for (const std::uint32_t p : positionsOf(mesh, at(order, mesh, levelCount(order) - 1)))
       count += std::abs(mesh.poses[0][p].x - 0.5f) < 0.15f ? 1 : 0;
     return count;
   };
@@ -194,9 +193,8 @@ TEST(CollapseOrder, WhatBendsInAPoseKeepsItsRings) {
 
 TEST(CollapseOrder, IsTheSameEachTime) {
   const CollapseMesh mesh = tube(20, 12, true);
-  const CollapseOrder once = findCollapseOrder(mesh, {}), again = findCollapseOrder(mesh, {});
-  EXPECT_EQ(once.target, again.target);
-  EXPECT_EQ(once.band, again.band);
+  const Collapses once = findCollapseOrder(mesh, {}), again = findCollapseOrder(mesh, {});
+  EXPECT_EQ(once, again);
 }
 
 CollapseMesh meshOf(std::vector<Vec3> positions, std::vector<Triangle> faces) {
@@ -207,17 +205,33 @@ CollapseMesh meshOf(std::vector<Vec3> positions, std::vector<Triangle> faces) {
 }
 
 TEST(CollapseOrder, WhatCantGetCoarserStays) {
-  EXPECT_EQ(findCollapseOrder(meshOf({}, {}), {}).levels, 1u);
+  EXPECT_EQ(levelCount(findCollapseOrder(meshOf({}, {}), {})), 1u);
   const CollapseMesh triangle = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  EXPECT_EQ(findCollapseOrder(triangle, {}).levels, 1u);
+  EXPECT_EQ(levelCount(findCollapseOrder(triangle, {})), 1u);
   const CollapseMesh none_with_area =
       meshOf({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{0, 1, 2}, {0, 0, 3}});
-  EXPECT_EQ(findCollapseOrder(none_with_area, {}).levels, 1u);
+  EXPECT_EQ(levelCount(findCollapseOrder(none_with_area, {})), 1u);
   const CollapseMesh three_at_an_edge =
       meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}});
-  const CollapseOrder order = findCollapseOrder(three_at_an_edge, {});
-  for (const std::uint32_t end : {0u, 1u}) EXPECT_EQ(order.target[end], end) << "an end of that edge";
-  EXPECT_THAT(at(order, three_at_an_edge, 0), Not(IsEmpty()));
+  const Collapses order = findCollapseOrder(three_at_an_edge, {});
+  for (const std::uint32_t end : {0u, 1u}) EXPECT_EQ(order[end].target, end) << "an end of that edge";
+  EXPECT_THAT(at(order, three_at_an_edge, levelCount(order) - 1), Not(IsEmpty()));
+}
+
+TEST(CollapseOrder, WedgesGoWithTheirLastFaces) {
+  CollapseMesh mesh = tube(12, 8, true);
+  const auto count = static_cast<std::uint32_t>(mesh.position_of_vertex.size());
+  for (std::uint32_t p = 0; p < count; ++p) mesh.position_of_vertex.push_back(p);
+  mesh.faces.push_back({count, count, count + 1});
+  mesh.faces.front() = {mesh.faces[0][0] + count, mesh.faces[0][1] + count, mesh.faces[0][2] + count};
+  const Collapses order = findCollapseOrder(mesh, {});
+  ASSERT_TRUE(areValid(order));
+  for (std::uint32_t level = 1; level < levelCount(order); ++level) {
+    std::set<std::uint32_t> used;
+    for (const Triangle& face : at(order, mesh, level)) used.insert(face.begin(), face.end());
+    for (std::uint32_t v = 0; v < 2 * count; ++v)
+      EXPECT_EQ(isShownAt(order[v], level), used.contains(v)) << v << " at " << level;
+  }
 }
 
 TEST(CollapseOrder, PiecesApartAllStay) {
@@ -230,9 +244,9 @@ TEST(CollapseOrder, PiecesApartAllStay) {
   }
   for (const Triangle& face : faces)
     mesh.faces.push_back({face[0] + count, face[1] + count, face[2] + count});
-  const CollapseOrder order = findCollapseOrder(mesh, {.levels = 12, .coarsest_share = 0.001f});
+  const Collapses order = findCollapseOrder(mesh, {.levels = 12, .coarsest_share = 0.001f});
   std::array<std::size_t, 2> left{};
-  for (const Triangle& face : at(order, mesh, 0)) ++left[face[0] / count];
+  for (const Triangle& face : at(order, mesh, levelCount(order) - 1)) ++left[face[0] / count];
   EXPECT_THAT(left, Each(::testing::Ge(4u))) << "solid, however coarse";
 }
 
