@@ -5,6 +5,7 @@
 #include <set>
 
 #include "assetpipe/ground_speed.h"
+#include "assetpipe/mesh_levels.h"
 #include "assetpipe/transfer_clips.h"
 #include "assetpipe/wardrobe_builder.h"
 #include "core/atomic_file.h"
@@ -64,6 +65,7 @@ TaggingTemplate readTemplate(const fs::path& file, const PipelineOptions& option
     transferClips(clips, clip_file, result.body);
     putClipsInPlace(result.body, first, clip_file.string());
   }
+  findLevels(result.body);
   result.geometry_hash = geometryHash(result.body);
   return result;
 }
@@ -78,6 +80,11 @@ std::string itemName(const fs::path& file) {
 
 /// What was asked for and does not happen to an outfit that is tagged already.
 void tellAboutTagged(const std::string& file, const TagOptions& options) {
+  if (options.garment_faces != 0) {
+    logWarning(file +
+               ": it is tagged already, so --garment-faces changes nothing; give the file that it was "
+               "tagged from");
+  }
   if (options.occlusion == Occlusion::kAuthored && options.explain.empty()) return;
   logWarning(file + ": it is tagged already, so its hidden faces stay as they are" +
              (options.explain.empty() ? "" : " and --explain has nothing to tell") +

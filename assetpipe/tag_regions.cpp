@@ -10,8 +10,10 @@
 #include <optional>
 #include <span>
 
+#include "assetpipe/body_motion.h"
 #include "assetpipe/explain.h"
 #include "assetpipe/match_faces.h"
+#include "assetpipe/mesh_levels.h"
 #include "assetpipe/outfit_properties.h"
 #include "assetpipe/painted_faces.h"
 #include "assetpipe/segment.h"
@@ -75,6 +77,7 @@ class OutfitTagger {
     for (Garment& garment : item_.garments) {
       for (RawPrimitive& part : garment.parts) part = withTemplateJoints(std::move(part));
     }
+    findGarmentLevels();
     if (matches_.unmatched > 0) keepUnmatchedFaces();
     if (own_.occlusion != Occlusion::kAuthored) findHiddenFaces();
     applyOverrides();
@@ -87,6 +90,22 @@ class OutfitTagger {
  private:
   [[noreturn]] void fail(const std::string& where, const std::string& what, const std::string& mend) const {
     throw InputError({file_, where, what, mend});
+  }
+
+  /// After this the garments stay as they are: rays find what the reduced ones hide.
+  void findGarmentLevels() {
+    const std::vector<std::vector<Mat4>> poses = matricesInClips(body_);
+    for (Garment& garment : item_.garments) {
+      const std::uint32_t most = options_.garment_faces;
+      const std::uint32_t left = most == 0 ? 0 : reduceFaces(garment, most, poses);
+      if (left > most) {
+        warnings_.push_back(
+            fmt::format("garment '{}' keeps {} faces, more than {}: its seams and borders leave "
+                        "no fewer",
+                        garment.name, left, most));
+      }
+      findLevels(garment, poses);
+    }
   }
 
   /// Finds each joint that carries weight in the template's skeleton, by name and bind position.

@@ -22,6 +22,8 @@ struct TagOptions {
   HiddenFaceOptions hidden;  ///< for kAuto and kBoth
   /// Of the same template and options, shared by its outfits; null: looked for anew.
   BareBody* bare = nullptr;
+  /// Garments with more faces are brought down to as many before all else (mesh_levels.h); 0: they stay.
+  std::uint32_t garment_faces = 0;
   std::filesystem::path explain;  ///< folder for what explain.h writes; empty: not wanted
 };
 

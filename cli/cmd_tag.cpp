@@ -21,6 +21,7 @@ struct TagArguments {
   float hole_mm2 = HiddenFaceOptions().hole_area * 1.0e6f;
   std::string body_node;
   float tolerance_mm = kDefaultTolerance * 1000.0f;
+  std::uint32_t garment_faces = 0;
   bool draco = false;
   unsigned jobs = 0;
 };
@@ -58,6 +59,12 @@ void addTaggingOptions(CLI::App& command, TagArguments& arguments) {
           "How far a body corner may be from the template's, in millimetres, 0.001 to 10 (default 0.2)")
       ->check(CLI::Range(0.001, 10.0))
       ->type_name("MM");
+  command
+      .add_option(
+          "--garment-faces", arguments.garment_faces,
+          "Bring garments with more faces down to N for good; raw outfits only (default: as they are)")
+      ->check(CLI::Range(100u, 10000000u))
+      ->type_name("N");
   command.add_flag("--draco", arguments.draco, "Compress the files with Draco (off by default)");
   command.add_option("-j,--jobs", arguments.jobs, "Outfits tagged at a time (default: one for each core)")
       ->check(CLI::Range(1, 256))
@@ -82,6 +89,7 @@ PipelineOptions pipelineOptions(const TagArguments& arguments) {
   options.tag.hidden.hole_area = arguments.hole_mm2 * 1.0e-6f;
   if (arguments.hole_mm2 <= 0.0f) options.tag.hidden.hole_share = 0.0f;
   options.tag.explain = arguments.explain;
+  options.tag.garment_faces = arguments.garment_faces;
   options.tag.tolerance = arguments.tolerance_mm / 1000.0f;
   options.clips.assign(arguments.clips.begin(), arguments.clips.end());
   options.draco = arguments.draco;

@@ -50,6 +50,12 @@ RawAsset assetFromTemplate(const TemplateBody& body) {
       for (std::uint32_t& vertex : face) vertex -= first_vertex;
     }
     primitive.vertices.assign(body.vertices.begin() + first_vertex, body.vertices.begin() + last_vertex + 1);
+    if (!body.collapses.empty()) {
+      for (std::uint32_t v = first_vertex; v <= last_vertex; ++v) {
+        const VertexCollapse& collapse = body.collapses[VertexId(v)];
+        primitive.collapses.push_back({collapse.target - first_vertex, collapse.level});
+      }
+    }
     node.primitives.push_back(std::move(primitive));
     parts.push_back(body.regions[part.region].name);
   }
@@ -99,9 +105,14 @@ TemplateBody templateFromAsset(const RawAsset& asset, const std::string& file) {
       body.region_of_face.push(region_id);
     }
     for (const RawVertex& vertex : primitive.vertices) body.vertices.push(vertex);
+    for (const VertexCollapse& collapse : primitive.collapses)
+      body.collapses.push({collapse.target + vertex_offset, collapse.level});
     region.face_count += face_count;
     region.vertex_count += static_cast<std::uint32_t>(primitive.vertices.size());
   }
+
+  if (!body.collapses.empty() && body.collapses.size() != body.vertices.size())
+    throw InputError({file, "/meshes/0", "some primitives have _COLLAPSE and some do not", kMend});
 
   for (const RawClip& raw : asset.clips) {
     body.clips.push_back(sampleClip(body.skeleton, raw));

@@ -37,7 +37,8 @@ struct BodyPart {
 /// other, inside a region the source's order. A vertex (wedge) belongs to one region.
 struct TemplateBody {
   PerVertex<RawVertex> vertices;
-  PerFace<Triangle> faces;  ///< indices into vertices
+  PerFace<Triangle> faces;              ///< indices into vertices
+  PerVertex<VertexCollapse> collapses;  ///< its levels of detail; empty where it has none
   PerFace<RegionId> region_of_face;
   PerRegion<Region> regions;
   std::vector<BodyPart> parts;  ///< in face order; together they cover every face once
