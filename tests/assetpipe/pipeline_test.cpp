@@ -8,6 +8,7 @@
 #include "assetpipe/report.h"
 #include "assetpipe/wardrobe_builder.h"
 #include "core/atomic_file.h"
+#include "core/collapse.h"
 #include "core/gltf_file.h"
 #include "core/input_error.h"
 #include "core/sub_mesh_lists.h"
@@ -60,6 +61,8 @@ TEST_F(Pipeline, WritesAWardrobeThatLoads) {
   for (std::uint32_t f = 0; f < 192; ++f)
     EXPECT_EQ(tunic.visible[FaceId(f)] != 0, f < 64 || (f < 128 && f % 2 == 0));
   EXPECT_EQ(tunic.garmentFaceCount(), 80u);
+  EXPECT_GT(levelCount(wardrobe.body.collapses.raw()), 4u);
+  EXPECT_GT(levelCount(tunic.garments[0].parts[0].collapses), 4u);
 }
 
 TEST_F(Pipeline, DracoKeepsNumbersAndClasses) {
@@ -71,6 +74,7 @@ TEST_F(Pipeline, DracoKeepsNumbersAndClasses) {
   const Wardrobe plain = loadWardrobe(wardrobe_);
   EXPECT_EQ(packed.geometry_hash, plain.geometry_hash);
   EXPECT_EQ(packed.body.faces, plain.body.faces);
+  EXPECT_EQ(packed.body.collapses.raw(), plain.body.collapses.raw());
   ASSERT_EQ(packed.body.vertices.size(), plain.body.vertices.size());
   for (std::size_t v = 0; v < plain.body.vertices.size(); ++v) {
     EXPECT_NEAR(

@@ -101,6 +101,24 @@ TEST(GltfHostile, TemplateVertex) {
             "tag the outfit again");
 }
 
+TEST(GltfHostile, Collapse) {
+  const auto refusalOf = [](const std::vector<float>& values) {
+    TestGlb glb = triangleGlb();
+    glb.json["meshes"][0]["primitives"][0]["attributes"]["_COLLAPSE"] =
+        glb.addAccessor<float>(values, "VEC2");
+    return refusal(glb);
+  };
+  const std::string at = "x.glb: /meshes/0/primitives/0/attributes/_COLLAPSE: ",
+                    mend = "; tag the outfit again";
+  EXPECT_EQ(refusalOf({0, 0, 0.5f, 1, 2, 0}), at + "vertex 1 can't go to 0.5 at level 1" + mend);
+  EXPECT_EQ(refusalOf({0, 0, 0, 256, 2, 0}), at + "vertex 1 can't go to 0 at level 256" + mend);
+  EXPECT_EQ(refusalOf({0, 0, -1, 1, 2, 0}), at + "vertex 1 can't go to -1 at level 1" + mend);
+  const std::string ends = at + "a vertex goes to one that does not outlast it" + mend;
+  EXPECT_EQ(refusalOf({0, 0, 3, 1, 2, 0}), ends) << "there are three vertices";
+  EXPECT_EQ(refusalOf({1, 1, 0, 1, 2, 0}), ends) << "in a ring";
+  EXPECT_EQ(refusalOf({0, 0, 0, 0, 2, 0}), ends) << "it goes at no level";
+}
+
 TEST(GltfHostile, Paint) {
   const auto refusalOf = [](const std::vector<float>& values, const char* type) {
     TestGlb glb = triangleGlb();

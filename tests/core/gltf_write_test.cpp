@@ -199,6 +199,31 @@ TEST(GltfWrite, RoundTripThroughDraco) {
   expectNear(asset, readGlb(writeGlb(asset, options), "x.glb", keepNumbers()), options);
 }
 
+TEST(GltfWrite, CollapsesComeBack) {
+  for (const std::uint32_t count : {1000u, 65537u}) {  // 16-bit numbers, and wider ones
+    RawAsset asset = makeAsset();
+    RawPrimitive& primitive = asset.meshes[0].primitives[0];
+    RawVertex vertex = primitive.vertices[0];
+    primitive.vertices.clear();
+    primitive.template_vertices.clear();
+    primitive.faces.clear();
+    for (std::uint32_t v = 0; v < count; ++v) {
+      vertex.position = Vec3(static_cast<float>(v % 256), static_cast<float>(v / 256), 0.0f);
+      primitive.vertices.push_back(vertex);
+      primitive.collapses.push_back(v % 3 == 0 ? VertexCollapse{v, 0} : VertexCollapse{v - v % 3, 11});
+      if (v > 1) primitive.faces.push_back({v - 2, v - 1, v});
+    }
+    primitive.collapses.back() = {count - 1, 4};
+    for (const bool draco : {false, true}) {
+      GlbWriteOptions options;
+      options.draco = draco;
+      const RawAsset back = readGlb(writeGlb(asset, options), "x.glb", keepNumbers());
+      EXPECT_EQ(back.meshes[0].primitives[0].collapses, primitive.collapses) << count << ", Draco " << draco;
+      EXPECT_TRUE(back.dropped.empty());
+    }
+  }
+}
+
 // Exporters compress what is painted on vertices, too. Written under another name: the writer paints nothing.
 TEST(GltfWrite, PaintIsReadFromDraco) {
   RawAsset asset = makeAsset();
