@@ -70,6 +70,15 @@ TaggingTemplate readTemplate(const fs::path& file, const PipelineOptions& option
   return result;
 }
 
+/// Outfits see the clips as the wardrobe's file rounds them, so that those added later see the same.
+void takeWrittenClips(const std::vector<std::byte>& bytes, const std::string& file, TemplateBody& body) {
+  GltfReadOptions as_numbered;
+  as_numbered.weld = false;
+  TemplateBody written = templateFromAsset(readGlb(bytes, file, as_numbered), file);
+  body.skeleton = std::move(written.skeleton);
+  body.clips = std::move(written.clips);
+}
+
 /// An outfit's name: its file's, without the ending.
 std::string itemName(const fs::path& file) {
   std::string name = file.stem().string();
@@ -161,10 +170,11 @@ ManifestTemplate templateEntry(const TaggingTemplate& body) {
 
 Manifest tagWardrobe(const fs::path& template_file, const std::vector<fs::path>& outfit_files,
                      const fs::path& folder, const PipelineOptions& options) {
-  const TaggingTemplate body = readTemplate(template_file, options);
+  TaggingTemplate body = readTemplate(template_file, options);
+  const std::vector<std::byte> template_bytes = writeGlb(assetFromTemplate(body.body), writeOptions(options));
+  takeWrittenClips(template_bytes, template_file.string(), body.body);
   const std::vector<OutfitFile> outfits = readOutfits(outfit_files, body, options);
   refuseSameNames(outfit_files, outfits);
-  const std::vector<std::byte> template_bytes = writeGlb(assetFromTemplate(body.body), writeOptions(options));
 
   WardrobeWriter writer(folder);
   Manifest manifest;
