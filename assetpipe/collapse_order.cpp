@@ -315,9 +315,9 @@ class Orderer {
   void apply(const Candidate& collapse, std::uint32_t level) {
     const std::uint32_t from = collapse.from, to = collapse.to;
     ENSEMBLE_CHECK(findWedges(from, to));
-    // Wedges whose faces have all gone move too, until goWithLastFaces.
+    // Those whose faces have all gone go nowhere: the next wedge may be of another part.
     for (const std::uint32_t wedge : wedges_of_[from])
-      collapses_[wedge] = {wedges_.front().second, static_cast<std::uint8_t>(level)};
+      collapses_[wedge].level = static_cast<std::uint8_t>(level);
     for (const auto& [wedge, onto] : wedges_) collapses_[wedge].target = onto;
     is_locked_[to] = 1;
     --shown_;

@@ -234,6 +234,33 @@ TEST(CollapseOrder, WedgesGoWithTheirLastFaces) {
   }
 }
 
+TEST(CollapseOrder, NothingGoesToAnotherPart) {
+  // Each face by itself, then stripes: where a part narrows to its last face, only the other part is near.
+  for (const std::uint32_t part_faces : {1u, 3u, 16u, 40u}) {
+    CollapseMesh mesh = tube(12, 8, true);
+    const std::vector<Triangle> faces = mesh.faces;
+    const std::vector<std::uint32_t> places = mesh.position_of_vertex;
+    std::vector<std::uint32_t> part_of;
+    mesh.position_of_vertex.clear();
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> vertex_of;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      for (std::uint32_t& vertex : mesh.faces[f]) {
+        const auto count = static_cast<std::uint32_t>(part_of.size());
+        const auto [found, is_new] = vertex_of.try_emplace({f / part_faces, vertex}, count);
+        if (is_new) {
+          part_of.push_back(f / part_faces);
+          mesh.position_of_vertex.push_back(places[vertex]);
+        }
+        vertex = found->second;
+      }
+    }
+    const Collapses order = findCollapseOrder(mesh, {.levels = 12, .coarsest_share = 0.02f});
+    ASSERT_TRUE(areValid(order));
+    for (std::uint32_t v = 0; v < order.size(); ++v)
+      EXPECT_EQ(part_of[order[v].target], part_of[v]) << v << " of parts of " << part_faces;
+  }
+}
+
 TEST(CollapseOrder, PiecesApartAllStay) {
   CollapseMesh mesh = tube(12, 8, true);
   const auto count = static_cast<std::uint32_t>(mesh.poses[0].size());
