@@ -76,10 +76,18 @@ struct Item {
   std::vector<Garment> garments;
   std::vector<ExtraBodyPart> extra_body;
   PerFace<std::uint8_t> visible;  ///< 1 where the template's face shows, #F of the template
+  /// The level of detail from which on a face's `visible` is the other way round, 0: none does; #F, or empty
+  /// where none of any face does.
+  PerFace<std::uint8_t> turns_at;
   PerRegion<RegionTag> tags;
   std::vector<RawMaterial> materials;
   std::vector<RawImage> images;
 
+  /// Whether a face of the template shows under the item at a level of detail.
+  bool showsAt(FaceId face, std::uint32_t level) const {
+    const bool turns = !turns_at.empty() && turns_at[face] != 0 && level >= turns_at[face];
+    return (visible[face] != 0) != turns;
+  }
   std::uint32_t garmentFaceCount() const;
   std::uint32_t visibleBodyFaceCount() const;  ///< over all regions, extra faces included
   std::uint32_t dedicatedFaceCount() const;    ///< visible faces of partial regions
